@@ -1,4 +1,4 @@
-//! Trapped-air potential of each particle: the speed at which its neighbours approach it.
+//! Motion of each particle's neighbours relative to it: the air that they trap between them, and how they differ.
 
 use glam::Vec3;
 
@@ -8,13 +8,23 @@ use crate::cells::Cells;
 /// radius 2, where q is the distance in particle spacings.
 const WHOLE: f32 = 8.0 * std::f32::consts::PI / 3.0;
 
-/// The trapped-air potential of each particle (Ihmsen et al. 2012, Eq. 2) in scene units a second: the weighted mean
-/// of its neighbours' relative speeds, counted twice for a neighbour that approaches head-on, once for one that
-/// passes, and not for one that recedes. It is `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)`, with unit vectors in the
-/// scalar product and h of two spacings, over the sum of the weights inside a body of water. So it is 0 in water that
-/// rests or moves as a whole without turning, and for lone particles. Particles with a non-finite position or
-/// velocity have 0 and are no one's neighbour.
-pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) -> Vec<f32> {
+/// How a particle's neighbours move relative to it, in scene units a second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Relative {
+    /// Trapped-air potential (Ihmsen et al. 2012, Eq. 2): the weighted mean of the neighbours' relative speeds,
+    /// counted twice for a neighbour that approaches head-on, once for one that passes, and not for one that recedes.
+    /// It is `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)`, with unit vectors in the scalar product and h of two
+    /// spacings, over the sum of the weights inside a body of water. So it is 0 in water that rests or moves as a
+    /// whole without turning, and for lone particles.
+    pub trapped: f32,
+    /// Root mean square of the neighbours' relative speeds with the same weights, over the sum of the weights of the
+    /// neighbours there are. It is 0 for lone particles.
+    pub spread: f32,
+}
+
+/// Returns the relative motion round each particle. Particles with a non-finite position or velocity have 0 and are no
+/// one's neighbour.
+pub fn relative(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) -> Vec<Relative> {
     let reach = 2.0 * spacing;
     let velocity = |i: usize| Vec3::from(velocities[i]);
     let cells = Cells::new(positions, reach, |i| i < velocities.len() && velocity(i).is_finite());
@@ -22,28 +32,33 @@ pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) ->
         |_| true,
         |index, p, others| {
             let own = velocity(index);
-            let each =
-                others.map(|(other, there)| approach(p - there, own - velocity(other), reach));
-            each.sum::<f32>() / WHOLE
+            let (mut trapped, mut squares, mut weights) = (0.0, 0.0, 0.0);
+            for (other, there) in others {
+                let (apart, relative) = (p - there, own - velocity(other));
+                let distance = apart.length();
+                // The particle itself is among the neighbours.
+                if distance > 0.0 && distance < reach {
+                    let weight = 1.0 - distance / reach;
+                    trapped += approach(apart / distance, relative) * weight;
+                    squares += relative.length_squared() * weight;
+                    weights += weight;
+                }
+            }
+            let spread = if weights > 0.0 { (squares / weights).sqrt() } else { 0.0 };
+            Relative { trapped: trapped / WHOLE, spread }
         },
     );
-    let mut speeds = vec![0.0; positions.len()];
-    for (index, speed) in found {
-        speeds[index] = speed;
+    let mut all = vec![Relative::default(); positions.len()];
+    for (index, one) in found {
+        all[index] = one;
     }
-    speeds
+    all
 }
 
-/// One neighbour's term of the sum that is a particle's trapped-air potential: x_ij is `apart`, which points from the
-/// neighbour to the particle, v_ij is `relative`, the particle's velocity less the neighbour's, and h is `reach`.
-fn approach(apart: Vec3, relative: Vec3, reach: f32) -> f32 {
-    let (squared, speed) = (apart.length_squared(), relative.length());
-    // The particle itself is among the neighbours.
-    if squared >= reach * reach || squared <= 0.0 || speed <= 0.0 {
-        return 0.0;
-    }
-    let distance = squared.sqrt();
-    (speed - relative.dot(apart) / distance) * (1.0 - distance / reach)
+/// One neighbour's term of the trapped-air potential without its weight: the unit vector x_ij is `apart`, which points
+/// from the neighbour to the particle, v_ij is `relative`, the particle's velocity less the neighbour's.
+fn approach(apart: Vec3, relative: Vec3) -> f32 {
+    relative.length() - relative.dot(apart)
 }
 
 #[cfg(test)]
@@ -54,15 +69,21 @@ mod tests {
 
     type Flow = fn(Vec3) -> Vec3;
 
-    /// Returns the positions of a block of 20 layers of 20 by 20 particles, and their trapped-air potentials if they
-    /// move with `velocity`, which is a function of the position.
-    fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
+    /// Returns the positions of a block of 20 layers of 20 by 20 particles, and the motion round them if they move with
+    /// `velocity`, which is a function of the position.
+    fn moving(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<Relative>) {
         let at = |i: u16| [i % 20, i / 20 % 20, i / 400].map(|i| SPACING * (f32::from(i) - 9.5));
         let positions: Vec<_> = (0..8000).map(at).collect();
         let velocities: Vec<_> =
             positions.iter().map(|p| velocity((*p).into()).to_array()).collect();
-        let found = trapped(&positions, &velocities, SPACING);
+        let found = relative(&positions, &velocities, SPACING);
         (positions, found)
+    }
+
+    /// As `moving`, with the trapped-air potentials alone.
+    fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
+        let (positions, found) = moving(velocity);
+        (positions, found.into_iter().map(|one| one.trapped).collect())
     }
 
     #[test]
@@ -109,12 +130,41 @@ mod tests {
         assert!(layer(&part, 0.025) < 0.35 * layer(&meet, 0.025));
     }
 
-    /// The trapped-air potentials of valid particles change neither with the order of the particles nor if invalid
-    /// ones (NaN, infinite or far away) are among them.
+    /// In a flow with a gradient G the neighbours' relative speeds are G times their distances. The expected spread is
+    /// the sum over the neighbours on the particles' lattice, of which none is beyond one spacing and its diagonals.
+    #[test]
+    fn neighbours_of_a_sheared_flow_spread_by_its_gradient() {
+        let (positions, sheared) = moving(|p| Vec3::new(3.0 * p.y - 5.0, 0.0, 0.0));
+        let (mut squares, mut weights) = (0.0, 0.0);
+        for (x, y, z) in
+            (-1..=1).flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| (x, y, z))))
+        {
+            let distance = Vec3::new(x as f32, y as f32, z as f32).length();
+            let weight = if distance > 0.0 { 1.0 - 0.5 * distance } else { 0.0 };
+            squares += weight * (3.0 * SPACING * y as f32).powi(2);
+            weights += weight;
+        }
+        let wanted = (squares / weights).sqrt();
+        let inside = |p: &[f32; 3]| p.iter().all(|c| c.abs() < 8.0 * SPACING);
+        let found = positions.iter().zip(&sheared).filter(|(p, _)| inside(p));
+        assert!(found.clone().count() > 1000);
+        for (p, one) in found {
+            assert!(
+                (one.spread - wanted).abs() < 1.0e-3 * wanted,
+                "{p:?}: {} {wanted}",
+                one.spread
+            );
+        }
+        let (_, flows) = moving(|_| Vec3::new(7.0, -3.0, 2.0));
+        assert!(flows.iter().all(|one| *one == Relative::default()));
+    }
+
+    /// The motion round valid particles changes neither with the order of the particles nor if invalid ones (NaN,
+    /// infinite or far away) are among them.
     #[test]
     fn odd_particles_change_nothing() {
         let flow = |p: Vec3| Vec3::new((40.0 * p.y).sin(), (30.0 * p.z).cos(), p.x);
-        let (mut positions, whole) = block(flow);
+        let (mut positions, whole) = moving(flow);
         let mut velocities: Vec<_> =
             positions.iter().map(|p| flow((*p).into()).to_array()).collect();
         for odd in [[f32::NAN; 3], [1.0e30, 0.0, 0.0], [0.0, -f32::INFINITY, 0.0], [-1.0e12; 3]] {
@@ -125,11 +175,14 @@ mod tests {
         velocities.push([0.0, f32::NAN, 0.0]);
         positions.reverse();
         velocities.reverse();
-        let mut found = trapped(&positions, &velocities, SPACING);
-        assert!(found[..5].iter().all(|speed| *speed == 0.0), "{:?}", &found[..5]);
+        let mut found = relative(&positions, &velocities, SPACING);
+        assert!(found[..5].iter().all(|one| *one == Relative::default()), "{:?}", &found[..5]);
         found.reverse();
-        let close = |(a, b): (&f32, &f32)| (a - b).abs() <= 1.0e-4 * b.max(0.01);
-        assert!(found.iter().zip(&whole).all(close) && whole.iter().any(|speed| *speed > 0.1));
-        assert!(trapped(&[], &[], SPACING).is_empty());
+        let near = |a: f32, b: f32| (a - b).abs() <= 1.0e-4 * b.max(0.01);
+        for (a, b) in found.iter().zip(&whole) {
+            assert!(near(a.trapped, b.trapped) && near(a.spread, b.spread), "{a:?} {b:?}");
+        }
+        assert!(whole.iter().any(|one| one.trapped > 0.1 && one.spread > 0.1));
+        assert!(relative(&[], &[], SPACING).is_empty());
     }
 }

@@ -297,8 +297,8 @@ pub struct DrawArgs {
     /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
     /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
     /// number for --surface-foam is given). With 'air' the speed is √(a² + e²): a is that of the approach, e is
-    /// turbulence (0 to 1, default 0.17 in sequences, 0 in single frames) times the particle's speed relative to the
-    /// frame's mean velocity. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
+    /// turbulence (0 to 1, default 0.17) times the particle's speed relative to the frame's mean velocity, or 0 where
+    /// neighbours move alike. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
     /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
     /// per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
@@ -360,11 +360,12 @@ pub struct DrawArgs {
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
     /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
-    /// towards each other, and in sequences also where it is fast: on at most 5 % of the particles of the up to 16
-    /// frames that are read to find the threshold. Water that rests, flows or falls as a whole does not foam, and none
-    /// does if in each of these frames nearly all water moves within 1 m/s of the median velocity. If particles have
-    /// ids, at most 30 % of the particles of such a frame carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed gives. If particles have
-    /// ids, foam forms and decays over time; earlier frames are read for that.
+    /// towards each other, and where it is fast and neighbouring particles move differently: on at most 5 % of the
+    /// particles of the up to 16 frames that are read to find the threshold. Water that rests, flows or falls as a
+    /// whole does not foam, nor does a smooth jet. None does if in each of these frames nearly all water moves within
+    /// 1 m/s of the median velocity. If particles have ids, at most 30 % of the particles of such a frame carry foam
+    /// at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed gives. If
+    /// particles have ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
     /// The former name of --surface-foam
@@ -377,7 +378,8 @@ pub struct DrawArgs {
     /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3.5, 9]: if the sum of the neighbours'
     /// weights is at most FEW, the particle is spray; from MANY on its density alone decides. all_spray_density,
     /// full_water_density and no_spray_density are the limits of density, as fractions of the rest density [default:
-    /// 0.44, 0.6, 0.63]. With 'none' these particles are drawn as drops of water.
+    /// 0.44, 0.6, 0.63]. A particle inside a jet or another loose body of water is no spray, unless the sum of its
+    /// neighbours' weights is at most FEW. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

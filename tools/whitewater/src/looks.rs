@@ -364,7 +364,7 @@ pub fn look(
     let wanted = args.draw.surface_foam.unwrap_or(Foaming::Auto);
     let by = file.surface_foam.by(wanted, file.is_thesis());
     file.surface_foam.by = Some(by);
-    if sequence.is && by == FoamBy::Air {
+    if by == FoamBy::Air {
         file.surface_foam.turbulence.get_or_insert(surface_foam::TURBULENCE);
     }
     let foam = surface_foam::settings(

@@ -22,7 +22,6 @@ use crate::camera::{CameraFile, Lens};
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::film::{self, Reel};
-use crate::films;
 use crate::fluids::{self, Liquids};
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
@@ -30,6 +29,7 @@ use crate::placing::Placing;
 use crate::progress::{Progress, Steps};
 use crate::settings::{FoamBy, Found, SettingsFile};
 use crate::shore::Shores;
+use crate::spray;
 use crate::surface_foam;
 use crate::timings::Times;
 use crate::whitewater_source::{self, WhitewaterSource};
@@ -393,8 +393,7 @@ impl<'a> Session<'a> {
             if let Some(all) =
                 all.as_mut().filter(|_| self.look.spray && !self.look.file.is_thesis())
             {
-                let limit = self.look.settings.spray.no_spray_density * water.rest_density;
-                films::hold(&particles.positions, all.to_mut(), water.spacing, limit);
+                spray::keep_water(&particles.positions, all.to_mut(), &self.look.settings);
             }
             all
         });

@@ -11,10 +11,10 @@ use crate::args::SetArg;
 use crate::bounds::Bounds;
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
-use crate::films;
 use crate::looks;
 use crate::session::room;
 use crate::settings::SettingsFile;
+use crate::spray;
 use crate::stage;
 
 /// Default of `--smoothing-level` and `--thickness-level` of `render`.
@@ -47,8 +47,7 @@ impl Rendered {
         let rest = settings.water.rest_density;
         let shares = particles::estimate_densities(&pool.positions, pool.spacing);
         let mut densities: Vec<f32> = shares.into_iter().map(|share| share * rest).collect();
-        let limit = settings.spray.no_spray_density * rest;
-        films::hold(&pool.positions, &mut densities, pool.spacing, limit);
+        spray::keep_water(&pool.positions, &mut densities, &settings);
         let from = (eye, false);
         let basin =
             stage::basin_round(&[&pool.positions], &bounds, pool.spacing, from, SetArg::Pool, &[]);

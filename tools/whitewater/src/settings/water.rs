@@ -263,7 +263,7 @@ table! {
         /// speed in the Weber number.
         by: FoamBy,
         /// Speed of the eddies that particles do not resolve, divided by the particle's speed relative to the frame's
-        /// mean velocity, 0 to 1; only with `by` of air. Default 0.17 in sequences, 0 in single frames.
+        /// mean velocity, 0 to 1; only with `by` of air. Where neighbours move alike there are no eddies. Default 0.17.
         turbulence: f32,
         /// Unit of the Weber number.
         weber: Weber,
