@@ -379,7 +379,8 @@ pub struct DrawArgs {
     /// weights is at most FEW, the particle is spray; from MANY on its density alone decides. all_spray_density,
     /// full_water_density and no_spray_density are the limits of density, as fractions of the rest density [default:
     /// 0.44, 0.6, 0.63]. A particle inside a jet or another loose body of water is no spray, unless the sum of its
-    /// neighbours' weights is at most FEW. With 'none' these particles are drawn as drops of water.
+    /// neighbours' weights is at most FEW. A cluster of up to 8 particles with no others within four spacings is spray,
+    /// however dense. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

@@ -71,9 +71,10 @@ impl Cells {
                 continue;
             }
             let [x, y, z] = cell(same[0].position, self.reach);
-            // Cells that are adjacent along x are adjacent in the sorted list.
-            let rows = [-1, 0, 1].map(|dz| {
-                [-1, 0, 1].map(|dy| {
+            // Cells that are adjacent along x are adjacent in the sorted list. The particle's own row is the first, so
+            // that a caller which needs only some neighbours finds them soon.
+            let rows = [0, -1, 1].map(|dz| {
+                [0, -1, 1].map(|dy| {
                     let [first, last] = [-1, 1].map(|dx| key([x + dx, y + dy, z + dz]));
                     let from = all.partition_point(|other| other.key < first);
                     let past = all.partition_point(|other| other.key <= last);

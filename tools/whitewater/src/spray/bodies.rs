@@ -1,5 +1,5 @@
-//! Detects loose bodies of water: jets and falls whose particles have moved apart. Their density is as low as that of
-//! torn water, but they are no spray.
+//! Detects loose bodies of water, jets and falls whose particles have moved apart: their density is as low as that of
+//! torn water, but they are no spray. Detects also lone clusters, which are spray although they may be dense.
 
 use glam::Vec3;
 
@@ -19,16 +19,25 @@ const FILLED: [f32; 2] = [0.2, 0.35];
 /// Length of the sum of the vectors to the neighbours over the sum of their lengths: up to the first a particle has
 /// neighbours on all sides, from the second on it is a drop over water. At a plane surface it is 0.5.
 const ASIDE: [f32; 2] = [0.4, 0.6];
+/// Numbers of particles within `REACH`, with the particle itself: up to the first it is part of a lone cluster, from the
+/// second on it keeps its density. A cluster of 8 is two spacings wide.
+const LONE: [f32; 2] = [8.0, 16.0];
 /// Density of a particle inside a body, as fraction of the rest density: so high that few neighbours do not make it
 /// spray (`SpraySettings::few_neighbours`).
 const CERTAIN: f32 = 4.0;
 
-/// Raises the densities of particles in loose bodies of water. `rest` is the rest density.
-pub fn hold(positions: &[[f32; 3]], densities: &mut [f32], spacing: f32, rest: f32) {
+/// Raises the densities of particles in loose bodies of water, and lowers those of particles in lone clusters to `spray`.
+/// `rest` is the rest density.
+pub fn sort(
+    positions: &[[f32; 3]],
+    densities: &mut [f32],
+    spacing: f32,
+    (spray, rest): (f32, f32),
+) {
     let reach = REACH * spacing;
     let cells = Cells::new(positions, reach, |_| true);
-    let loose = |i: usize| densities[i] > 0.0 && densities[i] < DENSE * rest;
-    let shares = cells.map(loose, |_, p, others| {
+    let is_loose = |i: usize| densities[i] > 0.0 && densities[i] < DENSE * rest;
+    let in_body = cells.map(is_loose, |_, p, others| {
         let (mut count, mut sum, mut lengths) = (0.0, Vec3::ZERO, 0.0);
         for off in others.map(|(_, other)| other - p) {
             let length = off.length();
@@ -41,8 +50,16 @@ pub fn hold(positions: &[[f32; 3]], densities: &mut [f32], spacing: f32, rest: f
         let aside = if lengths > 0.0 { sum.length() / lengths } else { 1.0 };
         smoothstep(FILLED, count / FULL) * (1.0 - smoothstep(ASIDE, aside))
     });
-    for (index, share) in shares {
+    let is_water = |i: usize| densities[i] > spray;
+    let in_company = cells.map(is_water, |_, p, others| {
+        let near = others.filter(|(_, other)| (*other - p).length_squared() < reach * reach);
+        smoothstep(LONE, near.take(LONE[1] as usize).count() as f32)
+    });
+    for (index, share) in in_body {
         densities[index] += share * (CERTAIN * rest - densities[index]);
+    }
+    for (index, share) in in_company {
+        densities[index] = spray + share * (densities[index] - spray);
     }
 }
 
@@ -54,10 +71,13 @@ mod tests {
     const SPACING: f32 = 0.1;
     const REST: f32 = 1000.0;
 
+    /// Density of spray.
+    const SPRAY: f32 = 400.0;
+
     /// Densities of `positions`, all half the rest density before.
-    fn held(positions: &[[f32; 3]]) -> Vec<f32> {
+    fn sorted(positions: &[[f32; 3]]) -> Vec<f32> {
         let mut densities = vec![0.5 * REST; positions.len()];
-        hold(positions, &mut densities, SPACING, REST);
+        sort(positions, &mut densities, SPACING, (SPRAY, REST));
         densities
     }
 
@@ -82,7 +102,7 @@ mod tests {
         let size = Vec3::new(24.0, 16.0, 16.0);
         let of = |filled: f32| {
             let cloud = cloud(size, filled);
-            let inside = cloud.iter().zip(held(&cloud)).filter(|(p, _)| is_inside(size, p));
+            let inside = cloud.iter().zip(sorted(&cloud)).filter(|(p, _)| is_inside(size, p));
             let densities: Vec<f32> = inside.map(|(_, density)| density / REST).collect();
             assert!(densities.len() > 50, "{filled}");
             densities
@@ -100,7 +120,7 @@ mod tests {
         let mut positions: Vec<[f32; 3]> = (0..2048).map(pool).collect();
         let drop = |height: f32| [0.8, 0.8, SPACING * (8.0 + height)];
         positions.extend([drop(1.0), drop(2.5)]);
-        let densities = held(&positions);
+        let densities = sorted(&positions);
         assert_eq!(densities[2048..], [0.5 * REST; 2]);
         // Particles inside the pool are part of it.
         let deep = positions
@@ -110,15 +130,40 @@ mod tests {
     }
 
     #[test]
-    fn lone_dense_and_invalid_particles_keep_their_densities() {
+    fn lone_clusters_are_spray_and_streams_and_sheets_are_not() {
+        // Columns of the cross-section times lengths, in spacings.
+        let block = |[x, y, z]: [u16; 3]| {
+            let all = (0..x * y * z).map(|i| [i % x, i / x % y, i / (x * y)].map(f32::from));
+            all.map(|p| p.map(|c| SPACING * c)).collect::<Vec<_>>()
+        };
+        for (size, spray) in
+            [([2, 2, 2], true), ([1, 1, 2], true), ([2, 2, 9], false), ([9, 9, 1], false)]
+        {
+            let positions = block(size);
+            let mut densities = vec![REST; positions.len()];
+            sort(&positions, &mut densities, SPACING, (SPRAY, REST));
+            // The ends of a stream and the corners of a sheet have fewer neighbours.
+            let middle = densities[densities.len() / 2];
+            assert_eq!(middle, if spray { SPRAY } else { REST }, "{size:?}");
+        }
+        // A cluster that flies past a pool.
+        let mut both = block([8, 8, 8]);
+        both.extend(block([2, 2, 1]).iter().map(|[x, y, z]| [*x, *y, z + 12.0 * SPACING]));
+        let mut densities = vec![REST; both.len()];
+        sort(&both, &mut densities, SPACING, (SPRAY, REST));
+        assert!(densities[..512].iter().all(|d| *d == REST) && densities[512..] == [SPRAY; 4]);
+    }
+
+    #[test]
+    fn dense_and_invalid_particles_keep_their_densities() {
         let odd = [[f32::NAN; 3], [0.0; 3], [f32::INFINITY; 3]];
-        assert_eq!(held(&odd), [0.5 * REST; 3]);
+        assert_eq!(sorted(&odd), [0.5 * REST, SPRAY, 0.5 * REST]);
         let cloud = cloud(Vec3::splat(12.0), 0.6);
         for density in [0.0, DENSE * REST, REST, f32::NAN] {
             let mut densities = vec![density; cloud.len()];
-            hold(&cloud, &mut densities, SPACING, REST);
+            sort(&cloud, &mut densities, SPACING, (SPRAY, REST));
             assert!(densities.iter().all(|d| d.to_bits() == density.to_bits()), "{density}");
         }
-        hold(&[], &mut [], SPACING, REST);
+        sort(&[], &mut [], SPACING, (SPRAY, REST));
     }
 }

@@ -1,14 +1,15 @@
-//! Decides which particles with low densities are water, not spray.
+//! Tells spray from water by how the particles lie.
 
 mod bodies;
 mod films;
 
 use whitewater::Settings;
 
-/// Raises the densities of particles that are part of a film or of a loose body of water, so that they are not drawn
-/// as spray.
-pub fn keep_water(positions: &[[f32; 3]], densities: &mut [f32], settings: &Settings) {
+/// Adjusts the densities, by which particles are drawn as spray or as water: raises those of films and of loose bodies
+/// of water, and lowers those of lone clusters of particles.
+pub fn sort(positions: &[[f32; 3]], densities: &mut [f32], settings: &Settings) {
     let (spacing, rest) = (settings.water.spacing, settings.water.rest_density);
-    films::hold(positions, densities, spacing, settings.spray.no_spray_density * rest);
-    bodies::hold(positions, densities, spacing, rest);
+    let limits = &settings.spray;
+    films::hold(positions, densities, spacing, limits.no_spray_density * rest);
+    bodies::sort(positions, densities, spacing, (limits.all_spray_density * rest, rest));
 }
