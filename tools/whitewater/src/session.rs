@@ -393,7 +393,7 @@ impl<'a> Session<'a> {
             if let Some(all) =
                 all.as_mut().filter(|_| self.look.spray && !self.look.file.is_thesis())
             {
-                spray::sort(&particles.positions, all.to_mut(), &self.look.settings);
+                spray::classify(&particles.positions, all.to_mut(), &self.look.settings);
             }
             all
         });

@@ -10,7 +10,7 @@ use crate::smoothstep::smoothstep;
 const REACH: f32 = 4.0;
 /// Number of particles within `REACH` in water at rest: one per cubic spacing.
 const FULL: f32 = 4.0 / 3.0 * std::f32::consts::PI * REACH * REACH * REACH;
-/// Particles with at least this density, as fraction of the rest density, are left as they are.
+/// Only particles below this density, as fraction of the rest density, can be part of a loose body.
 const DENSE: f32 = 0.8;
 /// Fractions of the volume within `REACH` that water fills: up to the first a particle keeps its density, from the
 /// second on it is part of a body. Among the particles of less than 0.6 of the rest density the median is 0.28 in a
@@ -21,14 +21,14 @@ const FILLED: [f32; 2] = [0.2, 0.35];
 const ASIDE: [f32; 2] = [0.4, 0.6];
 /// Numbers of particles within `REACH`, with the particle itself: up to the first it is part of a lone cluster, from the
 /// second on it keeps its density. A cluster of 8 is two spacings wide.
-const LONE: [f32; 2] = [8.0, 16.0];
+pub const LONE: [f32; 2] = [8.0, 16.0];
 /// Density of a particle inside a body, as fraction of the rest density: so high that few neighbours do not make it
 /// spray (`SpraySettings::few_neighbours`).
 const CERTAIN: f32 = 4.0;
 
 /// Raises the densities of particles in loose bodies of water, and lowers those of particles in lone clusters to `spray`.
 /// `rest` is the rest density.
-pub fn sort(
+pub fn classify(
     positions: &[[f32; 3]],
     densities: &mut [f32],
     spacing: f32,
@@ -70,14 +70,12 @@ mod tests {
 
     const SPACING: f32 = 0.1;
     const REST: f32 = 1000.0;
-
-    /// Density of spray.
     const SPRAY: f32 = 400.0;
 
     /// Densities of `positions`, all half the rest density before.
-    fn sorted(positions: &[[f32; 3]]) -> Vec<f32> {
+    fn classified(positions: &[[f32; 3]]) -> Vec<f32> {
         let mut densities = vec![0.5 * REST; positions.len()];
-        sort(positions, &mut densities, SPACING, (SPRAY, REST));
+        classify(positions, &mut densities, SPACING, (SPRAY, REST));
         densities
     }
 
@@ -102,7 +100,7 @@ mod tests {
         let size = Vec3::new(24.0, 16.0, 16.0);
         let of = |filled: f32| {
             let cloud = cloud(size, filled);
-            let inside = cloud.iter().zip(sorted(&cloud)).filter(|(p, _)| is_inside(size, p));
+            let inside = cloud.iter().zip(classified(&cloud)).filter(|(p, _)| is_inside(size, p));
             let densities: Vec<f32> = inside.map(|(_, density)| density / REST).collect();
             assert!(densities.len() > 50, "{filled}");
             densities
@@ -120,7 +118,7 @@ mod tests {
         let mut positions: Vec<[f32; 3]> = (0..2048).map(pool).collect();
         let drop = |height: f32| [0.8, 0.8, SPACING * (8.0 + height)];
         positions.extend([drop(1.0), drop(2.5)]);
-        let densities = sorted(&positions);
+        let densities = classified(&positions);
         assert_eq!(densities[2048..], [0.5 * REST; 2]);
         // Particles inside the pool are part of it.
         let deep = positions
@@ -141,7 +139,7 @@ mod tests {
         {
             let positions = block(size);
             let mut densities = vec![REST; positions.len()];
-            sort(&positions, &mut densities, SPACING, (SPRAY, REST));
+            classify(&positions, &mut densities, SPACING, (SPRAY, REST));
             // The ends of a stream and the corners of a sheet have fewer neighbours.
             let middle = densities[densities.len() / 2];
             assert_eq!(middle, if spray { SPRAY } else { REST }, "{size:?}");
@@ -150,20 +148,20 @@ mod tests {
         let mut both = block([8, 8, 8]);
         both.extend(block([2, 2, 1]).iter().map(|[x, y, z]| [*x, *y, z + 12.0 * SPACING]));
         let mut densities = vec![REST; both.len()];
-        sort(&both, &mut densities, SPACING, (SPRAY, REST));
+        classify(&both, &mut densities, SPACING, (SPRAY, REST));
         assert!(densities[..512].iter().all(|d| *d == REST) && densities[512..] == [SPRAY; 4]);
     }
 
     #[test]
     fn dense_and_invalid_particles_keep_their_densities() {
         let odd = [[f32::NAN; 3], [0.0; 3], [f32::INFINITY; 3]];
-        assert_eq!(sorted(&odd), [0.5 * REST, SPRAY, 0.5 * REST]);
+        assert_eq!(classified(&odd), [0.5 * REST, SPRAY, 0.5 * REST]);
         let cloud = cloud(Vec3::splat(12.0), 0.6);
         for density in [0.0, DENSE * REST, REST, f32::NAN] {
             let mut densities = vec![density; cloud.len()];
-            sort(&cloud, &mut densities, SPACING, (SPRAY, REST));
+            classify(&cloud, &mut densities, SPACING, (SPRAY, REST));
             assert!(densities.iter().all(|d| d.to_bits() == density.to_bits()), "{density}");
         }
-        sort(&[], &mut [], SPACING, (SPRAY, REST));
+        classify(&[], &mut [], SPACING, (SPRAY, REST));
     }
 }
