@@ -60,7 +60,7 @@ mod sea;
 mod settings;
 #[path = "gpu/shading.rs"]
 mod shading;
-#[path = "gpu/shape.rs"]
+#[path = "gpu/shape/mod.rs"]
 mod shape;
 #[path = "gpu/sheets/mod.rs"]
 mod sheets;

@@ -20,7 +20,8 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{Between, U, eye_space, ray_distance};
-use crate::surface_foam::Foamy;
+
+mod crowd;
 
 const BOTH: [Splat; 2] = [Splat::Raster, Splat::Compute];
 
@@ -555,102 +556,6 @@ fn counts_packets_and_chunks_do_not_show() {
     let mut rig = Rig::new(&gpu, &config.with(|it| it.max_stride = max_stride));
     let drawn = rig.draw(&shot);
     same_drawn("shape-chunks", &drawn, &expected);
-}
-
-/// Particles with few neighbours are drawn as if the host had set their foam to 0 and their density
-/// to that of spray, in the passes `cull`, `light`, `surface_foam`, `spray` and `motion`; all other
-/// particles as if it were off. With foam alone and with spray alone too.
-#[test]
-fn few_neighbours_make_spray_without_foam() {
-    let gpu = Gpu::shared();
-    let size = extent(96, 64);
-    // With the larger stride the device binds few particles at a time. (Blended sums depend on the
-    // order of the particles.)
-    for (stride, foam, spray) in
-        [(32, true, true), (1 << 19, true, true), (32, true, false), (32, false, true)]
-    {
-        let config = ellipsoids(size, Splat::Compute).with(|it| {
-            it.sheets = 2;
-            it.light_map_size = Some(64);
-            (it.surface_foam, it.spray, it.motion) = (true, true, true);
-            it.max_stride = stride;
-        });
-        let mut rig = Rig::new(&gpu, &config);
-        let mut case = Foamy::new(size, Lens::Standard, 2.0);
-        let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
-        case.shot.light_volume = Some(LightVolume { center, radius: 6.0 });
-        case.shot.settings.water.spacing = 0.1;
-        // A block, five particles close together but not in a plane, and two.
-        case.shot.positions = lattice(&case.shot, [0.4, 0.3, 4.0], askew(), [3, 3, 3]);
-        for middle in [[-1.0, 0.6, 4.0], [-0.7, -0.6, 3.5], [0.2, -0.9, 4.0]] {
-            let corner = lattice(&case.shot, middle, askew(), [1, 1, 1]);
-            case.shot.positions.extend([12, 13, 14, 16, 22].map(|i| corner[i]));
-        }
-        for middle in [[-1.2, 0.0, 4.0], [1.2, -0.6, 4.5]] {
-            let line = lattice(&case.shot, middle, askew(), [1, 0, 0]);
-            case.shot.positions.extend(&line[..2]);
-        }
-        let count = case.shot.positions.len();
-        case.amounts = (0..count).map(|i| [0.2 + 0.1 * (i % 7) as f32, 0.3]).collect();
-        case.velocities = (0..count).map(|i| [0.3, 0.1 * (i % 5) as f32, -0.2]).collect();
-        case.ids = Some((0..count as u32).map(|i| 3 * i).collect());
-        case.shot.densities = Some(vec![case.shot.settings.water.rest_density; count]);
-        // Off.
-        let plain = case.draw(&mut rig);
-        let sums: Vec<f64> = shapes(&world(&case.shot), &twin_settings(&case.shot))
-            .iter()
-            .map(|s| s.crowd)
-            .collect();
-        let ([foam_few, foam_many], [spray_few, spray_many]) = ([4.4, 5.4], [1.5, 2.5]);
-        let mut expected = Foamy { shot: case.shot.clone(), ids: case.ids.clone(), ..case };
-        case = Foamy {
-            shot: expected.shot.clone(),
-            amounts: expected.amounts.clone(),
-            velocities: expected.velocities.clone(),
-            ids: expected.ids.clone(),
-        };
-        let of = |on: bool, limits: [f32; 2]| if on { limits } else { [0.0; 2] };
-        case.shot.settings.surface_foam.few_neighbours = of(foam, [foam_few, foam_many]);
-        case.shot.settings.spray.few_neighbours = of(spray, [spray_few, spray_many]);
-        let mut kinds = [0; 3];
-        for (i, sum) in sums.into_iter().enumerate() {
-            let between =
-                |[few, many]: [f32; 2]| sum > f64::from(few) - 0.01 && sum < f64::from(many) + 0.01;
-            assert!(!between([foam_few, foam_many]) && !between([spray_few, spray_many]), "{sum}");
-            let (foams, alone) = (sum > f64::from(foam_many), sum < f64::from(spray_few));
-            kinds[usize::from(foams) + 2 * usize::from(alone)] += 1;
-            if foam && !foams {
-                expected.amounts[i][0] = 0.0;
-            }
-            if spray && alone {
-                // Any density of pure spray.
-                expected.shot.densities.as_mut().expect("densities")[i] = 1.0;
-            }
-        }
-        assert_eq!(kinds, [15, 343, 4], "clusters, block, pairs");
-        let name = format!("shape-crowd-{stride}-{foam}-{spray}");
-        let (found, expected) = (case.draw(&mut rig), expected.draw(&mut rig));
-        same_drawn(&name, &found, &expected);
-        let all = |drawn: &Drawn| {
-            let foam = drawn.foam.as_ref().expect("foam");
-            let spray = drawn.spray.as_ref().expect("spray");
-            let light = drawn.light_thickness.as_ref().expect("light");
-            let motion = drawn.motion.as_ref().expect("motion");
-            let foam = foam.thickness.map(|[all, front]| [*all, *front, 0.0, 0.0]);
-            let motion = motion.map(|[x, y]| [*x, *y, 0.0, 0.0]);
-            (foam, spray.clone(), light.clone(), motion)
-        };
-        let (a, b) = (all(&found), all(&expected));
-        compare::same_color(&format!("{name}-foam"), &a.0, &b.0);
-        compare::same(&format!("{name}-spray"), &a.1, &b.1);
-        compare::same_color(&format!("{name}-light"), &a.2, &b.2);
-        compare::same_color(&format!("{name}-motion"), &a.3, &b.3);
-        // Without it there is no spray, and more foam.
-        let (before, sum) = (all(&plain), |image: &Image<f32>| image.data.iter().sum::<f32>());
-        assert!(sum(&before.1) == 0.0 && (sum(&a.1) > 0.0) == spray);
-        let [more, less] = [before.0, a.0].map(|foam| sum(&foam.map(|t| t[0])));
-        assert!(less > 0.0 && more >= less && (more > 1.02 * less) == foam, "{more} {less}");
-    }
 }
 
 /// A frame with two sheets, spray and light maps ends and has finite results, whatever the bits of
