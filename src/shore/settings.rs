@@ -210,7 +210,8 @@ pub struct ShorelineSettings {
     /// Noise that displaces the positions at which the foam texture and all other noises are looked up, scene units.
     /// The shore coordinate v is not displaced. Default: none.
     pub warp: Noise,
-    /// Range of v over which foam fades out at its seaward edge and at its inland edge, [0.001, 1], default 0.2.
+    /// Width of the bands in which foam fades out, at its seaward edge and at its inland edge, in units of the
+    /// coordinate v, which runs across the shore; [0.001, 1], default 0.2.
     pub fade: f32,
     /// Albedo, linear RGB, 0 to 1; default 0.9 of each.
     pub color: [f32; 3],

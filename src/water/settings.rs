@@ -229,8 +229,8 @@ impl Default for WaterSettings {
 }
 
 impl WaterSettings {
-    /// The water of the thesis' demo for a particle spacing: its unit of thickness, colours, reflectance,
-    /// highlight and composite.
+    /// The water of the source thesis' demo for a particle spacing: its unit of thickness, its colours and reflectance,
+    /// its highlight of the sun, and its formula for putting these together.
     pub fn thesis(spacing: f32) -> Self {
         let Medium::Source { base, falloff } = Medium::source(spacing) else {
             return Self::default();
@@ -694,7 +694,8 @@ pub struct SurfaceFoamSettings {
     /// flat films that are one particle thick are exempt. No effect without [`Kernels::Ellipsoids`]. Not in the
     /// thesis.
     pub few_neighbours: [f32; 2],
-    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis' screen colour is 0.25.)
+    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo; it blends its picture with
+    /// a grey of 0.25 there.)
     pub back_color: [f32; 3],
     /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis' screen colour is 1.)
     pub front_color: [f32; 3],

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Mat4, Vec3};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::shapes::{FACES, quaternion};
 use super::{Ground, Material, Mesh, Motion, Pattern, Scene, SunLight, Viewpoint};
@@ -86,7 +87,8 @@ impl Scene {
     /// `pool_level`.
     ///
     /// # Errors
-    /// The file cannot be read, is no JSON of this form, or names an unknown material.
+    /// The file cannot be read, is no JSON of this form, has a key of another name, has neither shapes nor a ground, or
+    /// names an unknown material.
     pub fn from_json(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
@@ -99,6 +101,7 @@ fn at(path: &Path, why: String) -> SceneError {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
     boxes: Vec<FileBox>,
@@ -112,9 +115,15 @@ struct File {
     sun: Option<FileSun>,
     #[serde(default)]
     motion: Vec<FileMotion>,
+    // For people who read the file.
+    #[serde(rename = "name")]
+    _name: Option<IgnoredAny>,
+    #[serde(rename = "units")]
+    _units: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileBox {
     #[serde(default)]
     name: String,
@@ -126,6 +135,7 @@ struct FileBox {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileCylinder {
     #[serde(default)]
     name: String,
@@ -141,6 +151,7 @@ struct FileCylinder {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileSphere {
     #[serde(default)]
     name: String,
@@ -152,6 +163,7 @@ struct FileSphere {
 /// Parts that move together. Each frame has a pose: the position of the body's origin (x y z) and the rotation
 /// about it (quaternion x y z w). A pose is applied to the parts as they are listed, not to the previous pose.
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileMotion {
     parts: Vec<String>,
     origin: [f32; 3],
@@ -161,12 +173,14 @@ struct FileMotion {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileGround {
     y: f32,
     material: String,
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileCamera {
     eye: [f32; 3],
     target: [f32; 3],
@@ -176,11 +190,20 @@ struct FileCamera {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileFluid {
     pool_level: Option<f32>,
+    // Of the solver.
+    #[serde(rename = "rest_density")]
+    _rest_density: Option<IgnoredAny>,
+    #[serde(rename = "spacing")]
+    _spacing: Option<IgnoredAny>,
+    #[serde(rename = "support")]
+    _support: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct FileSun {
     direction: [f32; 3],
     intensity: Option<f32>,
@@ -201,6 +224,10 @@ impl Scene {
     /// The error says what was expected and what was found.
     pub fn parse_json(bytes: &[u8]) -> Result<Self, String> {
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+        let shapes = file.boxes.len() + file.cylinders.len() + file.spheres.len();
+        if shapes == 0 && file.ground.is_none() {
+            return Err("expected boxes, cylinders, spheres or a ground, found none".into());
+        }
         let material = |name: &str, of: &str| {
             Material::named(name).ok_or_else(|| {
                 format!(
@@ -433,6 +460,8 @@ mod tests {
             ("\"radius\":0.2", "\"radius\":-1", "more than 0"),
             ("\"half\":[1,0.05,1]", "\"half\":[1,0.05]", "length 2"),
             ("\"y\":-0.1", "\"y\":\"low\"", "string"),
+            ("\"radius\":0.2", "\"radius\":0.2,\"color\":1", "unknown field `color`, expected one of"),
+            ("{\"boxes\"", "{\"parts\":[],\"boxes\"", "unknown field `parts`"),
             ("\"radius\":0.2", "\"radius\":0.2,\"bore\":0.3", "less than the radius"),
             (
                 "{\"boxes\"",
@@ -443,5 +472,7 @@ mod tests {
             let why = Scene::parse_json(JSON.replacen(from, to, 1).as_bytes()).expect_err(from);
             assert!(why.contains(says), "{why}");
         }
+        let why = Scene::parse_json(b"{\"name\":\"nothing\"}").expect_err("empty");
+        assert!(why.contains("expected boxes, cylinders, spheres or a ground"), "{why}");
     }
 }

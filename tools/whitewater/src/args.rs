@@ -178,8 +178,8 @@ pub struct RenderArgs {
     /// Up axis of the files; particles are rotated so that it becomes y [default: y, z, -y or -z, from how the water
     /// lies and falls; y if that is ambiguous]
     ///
-    /// -y means that y points down in the files, as in images. If the detected axis is not y, the program says which
-    /// one it is. Scene and camera are always y-up.
+    /// -y means that y points down in the files, as in images. If the option is not given and the axis that is found is
+    /// not y, the program says which one it is. Scene and camera are always y-up.
     #[arg(long, value_enum, allow_hyphen_values = true)]
     pub up_axis: Option<Up>,
     /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
@@ -211,8 +211,12 @@ pub struct RenderArgs {
     /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin if the water stands against
     /// two sides of a box, otherwise the ground]
     ///
-    /// A .json scene is made of boxes, cylinders, tubes and spheres. A part that moves has one pose per frame.
-    /// 'whitewater simulate' writes such files.
+    /// A .json scene is made of boxes, cylinders, tubes and spheres, for example
+    /// {"ground": {"y": 0, "material": "paving"},
+    /// "boxes": [{"material": "concrete", "centre": [0, 0.5, -1], "half": [2, 0.5, 0.1]}],
+    /// "cylinders": [{"material": "plain", "centre": [1, 0.5, 0], "radius": 0.2, "height": 1}],
+    /// "spheres": [{"material": "timber", "centre": [0, 1, 0], "radius": 0.1}]}. A part that moves has one pose per
+    /// frame; 'whitewater simulate bamboo' writes such a file.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
     /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene those of the scene]
@@ -269,13 +273,13 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
-    /// 1/200 for a single PNG, otherwise 0]
+    /// 1/200 for a PNG if the input is a single file, otherwise 0]
     ///
     /// It uses the water's velocities. Whitewater and bubbles are not blurred.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: lens diameter in scene units, 0 for none [default: for a single PNG 0.0015 of the focus
-    /// distance, at most 0.015, otherwise 0]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: for a PNG, if the input is a single file,
+    /// 0.0015 of the focus distance, at most 0.015; otherwise 0]
     ///
     /// A lens of 50 mm at f/2 has a diameter of 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]

@@ -104,7 +104,7 @@ pub fn in_folder(input: &str) -> Outcome<String> {
             let list: Vec<_> = many.iter().take(8).map(shown).collect();
             let why = format!(
                 "{input} is a folder of several sequences: name one of {}; or, where they are parts of the same frames, \
-                 several, with --join",
+                 several, with --join{WHITEWATER}",
                 list.join(", ")
             );
             return Err(Failure::input(why));
@@ -112,16 +112,11 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     }
     folders.sort();
     others.sort();
-    let within = |name: &String| {
-        let name = format!("{folder}/{name}");
-        let inner = std::fs::read_dir(&name).into_iter().flatten().flatten();
-        let any = inner.map(|entry| entry.file_name().to_string_lossy().into_owned());
-        any.into_iter().any(|file| readable(&file)).then_some(name)
-    };
     if let Some(pattern) = in_folders(folder, &folders) {
         return Ok(pattern);
     }
-    let inner: Vec<_> = folders.iter().filter_map(within).take(8).collect();
+    let inside = folders.iter().map(|name| format!("{folder}/{name}"));
+    let inner: Vec<_> = inside.flat_map(|folder| with_particles(&folder, DEPTH)).take(8).collect();
     // Solvers write a subfolder of particles beside logs and their own state.
     if let [one] = inner.as_slice() {
         return in_folder(one);
@@ -144,7 +139,7 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         return Err(Failure::input(format!("{input}: {why}")));
     }
     let found = match (inner.is_empty(), others.first()) {
-        (false, _) => format!("; there are some in {}", inner.join(", ")),
+        (false, _) => format!("; there are some in {}{WHITEWATER}", inner.join(", ")),
         (true, Some(_)) if told.is_some() => format!(": {}", told.unwrap_or_default()),
         (true, Some(first)) => {
             let known = others.iter().find_map(|name| Some((name, unread(name)?)));
@@ -155,6 +150,28 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         (true, None) => String::new(),
     };
     Err(Failure::input(format!("{input}: expected particle files in the folder{found}")))
+}
+
+/// Advice where there are several sequences.
+const WHITEWATER: &str = "; if one holds spray, foam and bubbles, give it as --whitewater FOLDER";
+
+/// Max number of further levels of folders that are searched for particle files.
+const DEPTH: usize = 2;
+
+/// The folder itself if it has particle files, otherwise the folders in it, down to `depth` levels, that have some.
+fn with_particles(folder: &str, depth: usize) -> Vec<String> {
+    let mut folders = Vec::new();
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            folders.push(format!("{folder}/{name}"));
+        } else if readable(&name) {
+            return vec![folder.to_owned()];
+        }
+    }
+    folders.sort();
+    let deeper = folders.iter().filter(|_| depth > 0);
+    deeper.flat_map(|folder| with_particles(folder, depth - 1)).collect()
 }
 
 /// Max number of files without a known extension whose contents are inspected.
@@ -435,5 +452,18 @@ mod tests {
         write("bi4/log.out~");
         assert!(said("bi4").contains("PartVTK"), "{}", said("bi4"));
         assert!(said("none").contains("expected particle files"), "{}", said("none"));
+        // Results some folders down, and water and whitewater in folders beside each other.
+        for (folder, files) in
+            [("case/out/particles", "p"), ("run/out/water", "w"), ("run/out/foam", "f")]
+        {
+            std::fs::create_dir_all(at(folder)).unwrap();
+            write(&format!("{folder}/{files}_1.ply"));
+        }
+        assert!(in_folder(&at("case")).unwrap().ends_with("case/out/particles/p_*.ply"));
+        let both = said("run");
+        assert!(
+            both.contains("run/out/foam, ") && both.contains("run/out/water; if one"),
+            "{both}"
+        );
     }
 }

@@ -329,8 +329,15 @@ pub fn look(
             let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set, &jets);
             match basin.filter(|_| sheet.is_none()) {
                 Some(basin) => {
-                    progress
-                        .say("a basin round the water, which a box holds (--scene ground: none)");
+                    let blocks = match jets.len() {
+                        0 => "",
+                        1 => " and a stone spout where a jet begins in mid-air",
+                        _ => " and stone spouts where jets begin in mid-air",
+                    };
+                    progress.say(&format!(
+                        "drawn as well: a basin, because the water stands against flat sides{blocks} \
+                         (--scene ground leaves that out)"
+                    ));
                     basin
                 }
                 None => stage::ground_under(&bounds, eye, set),
@@ -406,9 +413,9 @@ pub fn look(
     let film = fps / sequence.film.unwrap_or(1.0);
     let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
         if args.fps.is_none() {
-            let found = if probes.fps.is_some() { "found; " } else { "" };
+            let found = if probes.fps.is_some() { "found" } else { "assumed" };
             let fps = round(fps / sequence.step);
-            progress.say(&format!("{fps} frames a second ({found}--fps sets it)"));
+            progress.say(&format!("{fps} frames a second ({found}; --fps sets it)"));
         }
         fps
     });

@@ -98,9 +98,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
     let mut progress = Progress::new(left.len(), "frames");
     if !done.is_empty() {
-        let count = done.len();
-        progress
-            .say(&format!("{count} finished frames are skipped (--overwrite draws them again)"));
+        let finished = match done.len() {
+            1 => "1 finished frame is".to_owned(),
+            count => format!("{count} finished frames are"),
+        };
+        progress.say(&format!("{finished} skipped (--overwrite draws them again)"));
     }
     if left.is_empty() {
         return Ok(());
@@ -320,7 +322,10 @@ impl Warnings {
         let repeated = self.0.iter().filter(|warning| warning.frames > 1);
         let line = |Warning { file, text, frames, .. }: &Warning| {
             let start: Vec<_> = text.split(' ').take(8).collect();
-            format!("{frames} of {total} frames as {file}: {} ...", start.join(" "))
+            format!(
+                "warning for {frames} of {total} frames, as for {file}: {} ...",
+                start.join(" ")
+            )
         };
         repeated.map(line).collect()
     }

@@ -406,5 +406,10 @@ fn a_warning_of_many_frames_is_said_once() {
     }
     let said = folder.run(&format!("render f_*.ply -o a.png {SMALL}")).ok().stderr();
     assert_eq!(said.matches("or infinite, or too large").count(), 1, "{said}");
-    assert!(said.contains("4 of 4 frames as f_1.ply: 1 of 217 positions are not finite"), "{said}");
+    assert!(
+        said.contains(
+            "warning for 4 of 4 frames, as for f_1.ply: 1 of 217 positions are not finite"
+        ),
+        "{said}"
+    );
 }
