@@ -460,7 +460,11 @@ mod tests {
             ("\"radius\":0.2", "\"radius\":-1", "more than 0"),
             ("\"half\":[1,0.05,1]", "\"half\":[1,0.05]", "length 2"),
             ("\"y\":-0.1", "\"y\":\"low\"", "string"),
-            ("\"radius\":0.2", "\"radius\":0.2,\"color\":1", "unknown field `color`, expected one of"),
+            (
+                "\"radius\":0.2",
+                "\"radius\":0.2,\"color\":1",
+                "unknown field `color`, expected one of",
+            ),
             ("{\"boxes\"", "{\"parts\":[],\"boxes\"", "unknown field `parts`"),
             ("\"radius\":0.2", "\"radius\":0.2,\"bore\":0.3", "less than the radius"),
             (
