@@ -345,6 +345,22 @@ impl Headless {
         Ok(())
     }
 
+    /// Replaces the densities of the particles that were uploaded last, for example after a step of foam with others.
+    ///
+    /// # Errors
+    /// The number of densities differs from the number of particles uploaded.
+    pub fn densities(&mut self, densities: &[f32]) -> Result<(), Error> {
+        if densities.len() != self.count as usize {
+            return Err(Error::bad("densities", "not as many as positions"));
+        }
+        if let Some(old) = self.densities.take() {
+            old.destroy(&self.gpu);
+        }
+        self.densities =
+            Some(input(&self.gpu, "headless/densities", bytemuck::cast_slice(densities))?);
+        Ok(())
+    }
+
     /// Replaces the positions of the particles that were uploaded last; their densities, foam and velocities stay.
     ///
     /// # Errors

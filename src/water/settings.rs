@@ -694,8 +694,8 @@ pub struct SurfaceFoamSettings {
     /// flat films that are one particle thick are exempt. No effect without [`Kernels::Ellipsoids`]. Not in the
     /// thesis.
     pub few_neighbours: [f32; 2],
-    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo; it blends its picture with
-    /// a grey of 0.25 there.)
+    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends its picture with
+    /// a grey of 0.25.)
     pub back_color: [f32; 3],
     /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis' screen colour is 1.)
     pub front_color: [f32; 3],

@@ -87,8 +87,8 @@ impl Scene {
     /// `pool_level`.
     ///
     /// # Errors
-    /// The file cannot be read, is no JSON of this form, has a key of another name, has neither shapes nor a ground, or
-    /// names an unknown material.
+    /// The file cannot be read, is no JSON of this form, has an unknown key or another unit than metres, has neither
+    /// shapes nor a ground, or names an unknown material.
     pub fn from_json(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
@@ -115,11 +115,11 @@ struct File {
     sun: Option<FileSun>,
     #[serde(default)]
     motion: Vec<FileMotion>,
+    /// Begins with "metres".
+    units: Option<String>,
     // For people who read the file.
     #[serde(rename = "name")]
     _name: Option<IgnoredAny>,
-    #[serde(rename = "units")]
-    _units: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
@@ -224,6 +224,9 @@ impl Scene {
     /// The error says what was expected and what was found.
     pub fn parse_json(bytes: &[u8]) -> Result<Self, String> {
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
+        if let Some(units) = file.units.filter(|units| !units.starts_with("metres")) {
+            return Err(format!("units: expected \"metres\", found \"{units}\""));
+        }
         let shapes = file.boxes.len() + file.cylinders.len() + file.spheres.len();
         if shapes == 0 && file.ground.is_none() {
             return Err("expected boxes, cylinders, spheres or a ground, found none".into());
@@ -466,6 +469,7 @@ mod tests {
                 "unknown field `color`, expected one of",
             ),
             ("{\"boxes\"", "{\"parts\":[],\"boxes\"", "unknown field `parts`"),
+            ("{\"boxes\"", "{\"units\":\"mm\",\"boxes\"", "found \"mm\""),
             ("\"radius\":0.2", "\"radius\":0.2,\"bore\":0.3", "less than the radius"),
             (
                 "{\"boxes\"",

@@ -64,13 +64,7 @@ fn few_neighbours_make_spray_without_foam() {
             .map(|s| s.crowd)
             .collect();
         let ([foam_few, foam_many], [spray_few, spray_many]) = ([4.4, 5.4], [1.5, 2.5]);
-        let mut expected = Foamy { shot: case.shot.clone(), ids: case.ids.clone(), ..case };
-        case = Foamy {
-            shot: expected.shot.clone(),
-            amounts: expected.amounts.clone(),
-            velocities: expected.velocities.clone(),
-            ids: expected.ids.clone(),
-        };
+        let mut expected = case.clone();
         let of = |on: bool, limits: [f32; 2]| if on { limits } else { [0.0; 2] };
         case.shot.settings.surface_foam.few_neighbours = of(foam, [foam_few, foam_many]);
         case.shot.settings.spray.few_neighbours = of(spray, [spray_few, spray_many]);

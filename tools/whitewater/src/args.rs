@@ -273,13 +273,14 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
-    /// 1/200 for a PNG if the input is a single file, otherwise 0]
+    /// 1/200 for the PNG of an input of one frame; 0 for sequences, and with --turntable, --fluid, --set none or
+    /// --look thesis]
     ///
     /// It uses the water's velocities. Whitewater and bubbles are not blurred.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: lens diameter in scene units, 0 for none [default: for a PNG, if the input is a single file,
-    /// 0.0015 of the focus distance, at most 0.015; otherwise 0]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: where --shutter has one, 0.0015 of the
+    /// focus distance, at most 0.015]
     ///
     /// A lens of 50 mm at f/2 has a diameter of 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
@@ -327,8 +328,8 @@ pub struct DrawArgs {
     /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
-    /// Direction to the sun [default: for the sky, high and to the camera's left, or -0.7,0.55,-0.35 with
-    /// --scene; for a file, its brightest spot]
+    /// Direction to the sun [default: for the sky, high and to one side, or -0.7,0.55,-0.35 with --scene and
+    /// without --set; for a file, its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene

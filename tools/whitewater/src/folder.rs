@@ -44,6 +44,11 @@ const EXTENSIONS: [&str; 28] = [
 /// Returns a file name or pattern unchanged; for a folder, the pattern of its only sequence, or a file that lists the
 /// sequence.
 pub fn in_folder(input: &str) -> Outcome<String> {
+    within_folder(input, DEPTH)
+}
+
+/// The same, and enters at most `depth` folders each of which is the only thing in the one before.
+fn within_folder(input: &str, depth: usize) -> Outcome<String> {
     let path = Path::new(input);
     if !path.is_dir() {
         return Ok(input.to_string());
@@ -104,7 +109,7 @@ pub fn in_folder(input: &str) -> Outcome<String> {
             let list: Vec<_> = many.iter().take(8).map(shown).collect();
             let why = format!(
                 "{input} is a folder of several sequences: name one of {}; or, where they are parts of the same frames, \
-                 several, with --join{WHITEWATER}",
+                 several, with --join",
                 list.join(", ")
             );
             return Err(Failure::input(why));
@@ -115,11 +120,21 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     if let Some(pattern) = in_folders(folder, &folders) {
         return Ok(pattern);
     }
-    let inside = folders.iter().map(|name| format!("{folder}/{name}"));
-    let inner: Vec<_> = inside.flat_map(|folder| with_particles(&folder, DEPTH)).take(8).collect();
+    let within = |name: &String| {
+        let name = format!("{folder}/{name}");
+        let inner = std::fs::read_dir(&name).into_iter().flatten().flatten();
+        let any = inner.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        any.into_iter().any(|file| readable(&file)).then_some(name)
+    };
+    let inner: Vec<_> = folders.iter().filter_map(within).take(8).collect();
     // Solvers write a subfolder of particles beside logs and their own state.
     if let [one] = inner.as_slice() {
-        return in_folder(one);
+        return within_folder(one, depth);
+    }
+    if let ([only], true, true, true) =
+        (folders.as_slice(), inner.is_empty(), others.is_empty(), depth > 0)
+    {
+        return within_folder(&format!("{folder}/{only}"), depth - 1);
     }
     // Files without an extension, such as OpenFOAM's, may be recognised by their contents.
     let told = others.iter().filter(|name| !name.contains('.')).take(LOOKED_AT).find_map(|name| {
@@ -152,27 +167,12 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     Err(Failure::input(format!("{input}: expected particle files in the folder{found}")))
 }
 
-/// Advice where there are several sequences.
-const WHITEWATER: &str = "; if one holds spray, foam and bubbles, give it as --whitewater FOLDER";
+/// Advice where there are several folders of particles.
+const WHITEWATER: &str =
+    " (spray, foam and bubbles are read by --whitewater, for example 'foam/*.bgeo')";
 
-/// Max number of further levels of folders that are searched for particle files.
-const DEPTH: usize = 2;
-
-/// The folder itself if it has particle files, otherwise the folders in it, down to `depth` levels, that have some.
-fn with_particles(folder: &str, depth: usize) -> Vec<String> {
-    let mut folders = Vec::new();
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if entry.path().is_dir() {
-            folders.push(format!("{folder}/{name}"));
-        } else if readable(&name) {
-            return vec![folder.to_owned()];
-        }
-    }
-    folders.sort();
-    let deeper = folders.iter().filter(|_| depth > 0);
-    deeper.flat_map(|folder| with_particles(folder, depth - 1)).collect()
-}
+/// Max number of folders, each the only thing in the one before, that are entered in search of particle files.
+const DEPTH: usize = 4;
 
 /// Max number of files without a known extension whose contents are inspected.
 const LOOKED_AT: usize = 4;
@@ -453,17 +453,17 @@ mod tests {
         assert!(said("bi4").contains("PartVTK"), "{}", said("bi4"));
         assert!(said("none").contains("expected particle files"), "{}", said("none"));
         // Results some folders down, and water and whitewater in folders beside each other.
-        for (folder, files) in
-            [("case/out/particles", "p"), ("run/out/water", "w"), ("run/out/foam", "f")]
+        for (folder, file) in
+            [("flume/out/particles", "p"), ("run/out/water", "w"), ("run/out/foam", "f")]
         {
             std::fs::create_dir_all(at(folder)).unwrap();
-            write(&format!("{folder}/{files}_1.ply"));
+            write(&format!("{folder}/{file}_1.ply"));
         }
-        assert!(in_folder(&at("case")).unwrap().ends_with("case/out/particles/p_*.ply"));
+        assert!(in_folder(&at("flume")).unwrap().ends_with("flume/out/particles/p_*.ply"));
         let both = said("run");
-        assert!(
-            both.contains("run/out/foam, ") && both.contains("run/out/water; if one"),
-            "{both}"
-        );
+        assert!(both.contains("run/out/foam, ") && both.contains("run/out/water (spray"), "{both}");
+        // Where there is more than one folder, those further down are not searched.
+        std::fs::create_dir_all(at("flume/code")).unwrap();
+        assert!(said("flume").contains("expected particle files"), "{}", said("flume"));
     }
 }

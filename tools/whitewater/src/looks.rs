@@ -329,14 +329,14 @@ pub fn look(
             let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set, &jets);
             match basin.filter(|_| sheet.is_none()) {
                 Some(basin) => {
-                    let blocks = match jets.len() {
+                    let spouts = match jets.len() {
                         0 => "",
-                        1 => " and a stone spout where a jet begins in mid-air",
-                        _ => " and stone spouts where jets begin in mid-air",
+                        1 => ", and a spout where a jet begins in mid-air",
+                        _ => ", and spouts where jets begin in mid-air",
                     };
                     progress.say(&format!(
-                        "drawn as well: a basin, because the water stands against flat sides{blocks} \
-                         (--scene ground leaves that out)"
+                        "drawn as well: a basin (the water stands against sides of a box){spouts}; --scene ground \
+                         leaves it out"
                     ));
                     basin
                 }

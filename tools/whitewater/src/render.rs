@@ -98,11 +98,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
     let mut progress = Progress::new(left.len(), "frames");
     if !done.is_empty() {
-        let finished = match done.len() {
-            1 => "1 finished frame is".to_owned(),
-            count => format!("{count} finished frames are"),
-        };
-        progress.say(&format!("{finished} skipped (--overwrite draws them again)"));
+        progress.say(&match done.len() {
+            1 => "1 finished frame is skipped (--overwrite draws it again)".to_owned(),
+            count => format!("{count} finished frames are skipped (--overwrite draws them again)"),
+        });
     }
     if left.is_empty() {
         return Ok(());
@@ -323,7 +322,7 @@ impl Warnings {
         let line = |Warning { file, text, frames, .. }: &Warning| {
             let start: Vec<_> = text.split(' ').take(8).collect();
             format!(
-                "warning for {frames} of {total} frames, as for {file}: {} ...",
+                "warning in {frames} of {total} frames, first in {file}: {} ...",
                 start.join(" ")
             )
         };

@@ -385,17 +385,18 @@ impl<'a> Session<'a> {
             }
             self.making = Some((settings, made.max_particles()));
         }
-        // Spray is chosen by density.
+        // Spray is chosen by density. The Weber number of surface foam takes the densities as they are.
         let water = &self.look.settings.water;
-        let densities = times.step("densities", number, || {
+        let (densities, adjusted) = times.step("densities", number, || {
             let guessed = guessed_densities(self.look.spray, particles, water).map(Cow::Owned);
-            let mut all = guessed.or(particles.densities.as_deref().map(Cow::Borrowed));
-            if let Some(all) =
-                all.as_mut().filter(|_| self.look.spray && !self.look.file.is_thesis())
-            {
-                spray::classify(&particles.positions, all.to_mut(), &self.look.settings);
-            }
-            all
+            let all = guessed.or(particles.densities.as_deref().map(Cow::Borrowed));
+            let by_density = self.look.spray && !self.look.file.is_thesis();
+            let adjusted = all.as_deref().filter(|_| by_density).map(|all| {
+                let mut all = all.to_vec();
+                spray::adjust_densities(&particles.positions, &mut all, &self.look.settings);
+                all
+            });
+            (all, adjusted)
         });
         times.step("upload", number, || {
             headless.particles(&particles.positions, densities.as_deref())?;
@@ -439,6 +440,9 @@ impl<'a> Session<'a> {
             if drawn {
                 times.passes(number, headless.step_timings(Stepped::Foam));
             }
+        }
+        if let Some(adjusted) = &adjusted {
+            headless.densities(adjusted)?;
         }
         // With several fluids, the first one emits whitewater.
         headless.show(fluids::first(particles, self.look.fluids.len()));

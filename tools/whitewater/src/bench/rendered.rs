@@ -47,7 +47,7 @@ impl Rendered {
         let rest = settings.water.rest_density;
         let shares = particles::estimate_densities(&pool.positions, pool.spacing);
         let mut densities: Vec<f32> = shares.into_iter().map(|share| share * rest).collect();
-        spray::classify(&pool.positions, &mut densities, &settings);
+        spray::adjust_densities(&pool.positions, &mut densities, &settings);
         let from = (eye, false);
         let basin =
             stage::basin_round(&[&pool.positions], &bounds, pool.spacing, from, SetArg::Pool, &[]);

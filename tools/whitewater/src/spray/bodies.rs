@@ -22,13 +22,13 @@ const ASIDE: [f32; 2] = [0.4, 0.6];
 /// Numbers of particles within `REACH`, with the particle itself: up to the first it is part of a lone cluster, from the
 /// second on it keeps its density. A cluster of 8 is two spacings wide.
 pub const LONE: [f32; 2] = [8.0, 16.0];
-/// Density of a particle inside a body, as fraction of the rest density: so high that few neighbours do not make it
-/// spray (`SpraySettings::few_neighbours`).
+/// Density of a particle inside a body, as fraction of the rest density. It is so high that a particle with some more
+/// than the fewest neighbours (`SpraySettings::few_neighbours`) is water, and already one that is a tenth inside.
 const CERTAIN: f32 = 4.0;
 
 /// Raises the densities of particles in loose bodies of water, and lowers those of particles in lone clusters to `spray`.
 /// `rest` is the rest density.
-pub fn classify(
+pub fn adjust_densities(
     positions: &[[f32; 3]],
     densities: &mut [f32],
     spacing: f32,
@@ -50,7 +50,7 @@ pub fn classify(
         let aside = if lengths > 0.0 { sum.length() / lengths } else { 1.0 };
         smoothstep(FILLED, count / FULL) * (1.0 - smoothstep(ASIDE, aside))
     });
-    let is_water = |i: usize| densities[i] > spray;
+    let is_water = |i: usize| densities[i] > spray && densities[i].is_finite();
     let in_company = cells.map(is_water, |_, p, others| {
         let near = others.filter(|(_, other)| (*other - p).length_squared() < reach * reach);
         smoothstep(LONE, near.take(LONE[1] as usize).count() as f32)
@@ -75,7 +75,7 @@ mod tests {
     /// Densities of `positions`, all half the rest density before.
     fn classified(positions: &[[f32; 3]]) -> Vec<f32> {
         let mut densities = vec![0.5 * REST; positions.len()];
-        classify(positions, &mut densities, SPACING, (SPRAY, REST));
+        adjust_densities(positions, &mut densities, SPACING, (SPRAY, REST));
         densities
     }
 
@@ -105,7 +105,7 @@ mod tests {
             assert!(densities.len() > 50, "{filled}");
             densities
         };
-        // A random number of neighbours has a standard deviation of 4 % of the volume filled or less.
+        // A random number of neighbours has a standard deviation of 0.043 of the volume or less.
         assert!(of(0.5).iter().all(|density| *density > 0.99 * CERTAIN));
         assert!(of(0.1).iter().all(|density| *density < 0.6));
         let between: f32 = of(0.275).iter().sum::<f32>() / of(0.275).len() as f32;
@@ -139,7 +139,7 @@ mod tests {
         {
             let positions = block(size);
             let mut densities = vec![REST; positions.len()];
-            classify(&positions, &mut densities, SPACING, (SPRAY, REST));
+            adjust_densities(&positions, &mut densities, SPACING, (SPRAY, REST));
             // The ends of a stream and the corners of a sheet have fewer neighbours.
             let middle = densities[densities.len() / 2];
             assert_eq!(middle, if spray { SPRAY } else { REST }, "{size:?}");
@@ -148,7 +148,7 @@ mod tests {
         let mut both = block([8, 8, 8]);
         both.extend(block([2, 2, 1]).iter().map(|[x, y, z]| [*x, *y, z + 12.0 * SPACING]));
         let mut densities = vec![REST; both.len()];
-        classify(&both, &mut densities, SPACING, (SPRAY, REST));
+        adjust_densities(&both, &mut densities, SPACING, (SPRAY, REST));
         assert!(densities[..512].iter().all(|d| *d == REST) && densities[512..] == [SPRAY; 4]);
     }
 
@@ -157,11 +157,11 @@ mod tests {
         let odd = [[f32::NAN; 3], [0.0; 3], [f32::INFINITY; 3]];
         assert_eq!(classified(&odd), [0.5 * REST, SPRAY, 0.5 * REST]);
         let cloud = cloud(Vec3::splat(12.0), 0.6);
-        for density in [0.0, DENSE * REST, REST, f32::NAN] {
+        for density in [0.0, DENSE * REST, REST, f32::NAN, f32::INFINITY] {
             let mut densities = vec![density; cloud.len()];
-            classify(&cloud, &mut densities, SPACING, (SPRAY, REST));
+            adjust_densities(&cloud, &mut densities, SPACING, (SPRAY, REST));
             assert!(densities.iter().all(|d| d.to_bits() == density.to_bits()), "{density}");
         }
-        classify(&[], &mut [], SPACING, (SPRAY, REST));
+        adjust_densities(&[], &mut [], SPACING, (SPRAY, REST));
     }
 }

@@ -131,6 +131,32 @@ fn fast_torn_jets_foam() {
     folder.run(&format!("demo --size 32x18 {wild}")).fails(3, &[why]);
 }
 
+/// A loose body of water is drawn as water, but its Weber number is that of the density in the file.
+#[test]
+fn loose_water_foams_by_its_own_density() {
+    let folder = Folder::new();
+    let mut rows = String::from("x,y,z,vx,vy,vz,density\n");
+    // Every second place of a lattice, of which the radius is told.
+    for i in (0..8192_u16).filter(|i| (i % 16 + i / 16 % 16 + i / 256) % 2 == 0) {
+        let [x, y, z] = [i % 16, i / 16 % 16, i / 256].map(|i| 0.05 * f32::from(i));
+        rows += &format!("{x},{y},{z},1,0,0,500\n");
+    }
+    folder.text("f.csv", &rows);
+    folder.text("rest.toml", "[water]\nrest_density = 1000.0\n");
+    // 1e-5 (1.43 / spacing)² density speed² is 4.1. With the density of a body it would be 33.
+    let foam = |threshold: f32| -> f32 {
+        let common = format!(
+            "{SMALL} --radius 0.025 --overwrite --settings rest.toml --layers surface_foam.thickness"
+        );
+        folder.run(&format!("render f.csv -o a.exr {common} --surface-foam {threshold}")).ok();
+        let picture = folder.picture("a.exr");
+        let layer = picture.channels.iter().find(|c| c.name == "surface_foam.thickness");
+        layer.expect("the layer").data.iter().sum()
+    };
+    let [below, above] = [foam(3.0), foam(16.0)];
+    assert!(below > 0.0 && above == 0.0, "{below} {above}");
+}
+
 /// Water that is fast from the second frame on: foam needs time to form, and stays when the water is slow again. The
 /// frames that are drawn make no difference to it.
 #[test]
@@ -408,7 +434,7 @@ fn a_warning_of_many_frames_is_said_once() {
     assert_eq!(said.matches("or infinite, or too large").count(), 1, "{said}");
     assert!(
         said.contains(
-            "warning for 4 of 4 frames, as for f_1.ply: 1 of 217 positions are not finite"
+            "warning in 4 of 4 frames, first in f_1.ply: 1 of 217 positions are not finite"
         ),
         "{said}"
     );
