@@ -345,20 +345,20 @@ impl Headless {
         Ok(())
     }
 
-    /// Replaces the densities of the particles that were uploaded last, for example after a step of foam with others.
+    /// Replaces the densities of the particles that were uploaded last: surface foam may step with the densities of a
+    /// file, and spray be drawn by others.
     ///
     /// # Errors
-    /// The number of densities differs from the number of particles uploaded.
-    pub fn densities(&mut self, densities: &[f32]) -> Result<(), Error> {
-        if densities.len() != self.count as usize {
-            return Err(Error::bad("densities", "not as many as positions"));
+    /// The number of densities differs from the number of particles uploaded, or none were uploaded with them.
+    pub fn replace_densities(&mut self, densities: &[f32]) -> Result<(), Error> {
+        match &mut self.densities {
+            Some(buffer) if densities.len() == self.count as usize => {
+                let bytes = bytemuck::cast_slice(densities);
+                buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+                Ok(())
+            }
+            _ => Err(Error::bad("densities", "not as many as were uploaded")),
         }
-        if let Some(old) = self.densities.take() {
-            old.destroy(&self.gpu);
-        }
-        self.densities =
-            Some(input(&self.gpu, "headless/densities", bytemuck::cast_slice(densities))?);
-        Ok(())
     }
 
     /// Replaces the positions of the particles that were uploaded last; their densities, foam and velocities stay.

@@ -694,10 +694,10 @@ pub struct SurfaceFoamSettings {
     /// flat films that are one particle thick are exempt. No effect without [`Kernels::Ellipsoids`]. Not in the
     /// thesis.
     pub few_neighbours: [f32; 2],
-    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends its picture with
-    /// a grey of 0.25.)
+    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends a
+    /// grey of 0.25 over its picture.)
     pub back_color: [f32; 3],
-    /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis' screen colour is 1.)
+    /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis blends white over its picture.)
     pub front_color: [f32; 3],
 }
 

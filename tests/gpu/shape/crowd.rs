@@ -109,7 +109,7 @@ fn few_neighbours_make_spray_without_foam() {
     }
 }
 
-/// Largest error of a sum of weights: of at most 64 addends, each is rounded to 1/65536 (shape.comp).
+/// Largest error of a sum of weights: it has at most 64 addends, each rounded to a multiple of 1/65536 (shape.comp).
 const SUM_OFF: f64 = 64.0 * 0.5 / 65536.0;
 
 /// Between the limits, particles lose their foam and density gradually, as GLSL's smoothstep rises. A count on the GPU

@@ -385,7 +385,8 @@ impl<'a> Session<'a> {
             }
             self.making = Some((settings, made.max_particles()));
         }
-        // Spray is chosen by density. The Weber number of surface foam takes the densities as they are.
+        // Spray is chosen by adjusted densities. The Weber number of surface foam takes the densities as they are.
+        let foam = self.look.foam.as_ref().filter(|_| particles.velocities.is_some());
         let water = &self.look.settings.water;
         let (densities, adjusted) = times.step("densities", number, || {
             let guessed = guessed_densities(self.look.spray, particles, water).map(Cow::Owned);
@@ -399,13 +400,14 @@ impl<'a> Session<'a> {
             (all, adjusted)
         });
         times.step("upload", number, || {
-            headless.particles(&particles.positions, densities.as_deref())?;
+            let first = adjusted.as_deref().filter(|_| foam.is_none()).or(densities.as_deref());
+            headless.particles(&particles.positions, first)?;
             match &particles.velocities {
                 Some(velocities) => headless.motion(velocities, particles.ids.as_deref()),
                 None => Ok(()),
             }
         })?;
-        if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
+        if let Some(settings) = foam {
             let fps = self.look.fps.filter(|_| particles.ids.is_some());
             let (ids, spacing) = (particles.ids.as_deref(), self.look.settings.water.spacing);
             let by_air = self.look.file.surface_foam.by == Some(FoamBy::Air);
@@ -430,6 +432,9 @@ impl<'a> Session<'a> {
                         (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
                     }
                 }?;
+                if let Some(adjusted) = &adjusted {
+                    headless.replace_densities(adjusted)?;
+                }
                 // Foam moves with the water's own velocities.
                 match (&particles.velocities, drive) {
                     (Some(velocities), Some(_)) => headless.motion(velocities, ids),
@@ -440,9 +445,6 @@ impl<'a> Session<'a> {
             if drawn {
                 times.passes(number, headless.step_timings(Stepped::Foam));
             }
-        }
-        if let Some(adjusted) = &adjusted {
-            headless.densities(adjusted)?;
         }
         // With several fluids, the first one emits whitewater.
         headless.show(fluids::first(particles, self.look.fluids.len()));

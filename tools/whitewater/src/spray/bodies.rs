@@ -22,8 +22,8 @@ const ASIDE: [f32; 2] = [0.4, 0.6];
 /// Numbers of particles within `REACH`, with the particle itself: up to the first it is part of a lone cluster, from the
 /// second on it keeps its density. A cluster of 8 is two spacings wide.
 pub const LONE: [f32; 2] = [8.0, 16.0];
-/// Density of a particle inside a body, as fraction of the rest density. It is so high that a particle with some more
-/// than the fewest neighbours (`SpraySettings::few_neighbours`) is water, and already one that is a tenth inside.
+/// Density of a particle inside a body, as fraction of the rest density. Few neighbours lower the density
+/// (`SpraySettings::few_neighbours`); it is so high that the particle stays water, unless it has the fewest.
 const CERTAIN: f32 = 4.0;
 
 /// Raises the densities of particles in loose bodies of water, and lowers those of particles in lone clusters to `spray`.

@@ -17,6 +17,21 @@ fn what_is_simulated_can_be_drawn() {
     assert!(folder.exists("p_7.png") && folder.exists("p_8.png"));
 }
 
+/// The JSON scene in the help is one.
+#[test]
+fn the_scene_of_the_help_is_drawn() {
+    let folder = Folder::new();
+    let help = folder.run("render --help").ok().stdout();
+    let from = help.find("{\"ground\"").expect("an example");
+    let to = from + help[from..].find("]}.").expect("its end") + 2;
+    folder.text("help.json", &help[from..to]);
+    folder.particles("a.ply", block(4));
+    folder.run(&format!("render a.ply -o a.png --scene help.json {SIZE}")).ok();
+    folder.text("bad.json", &help[from..to].replace("\"half\"", "\"halves\""));
+    let why = ["unknown field `halves`"];
+    folder.run(&format!("render a.ply -o b.png --scene bad.json {SIZE}")).fails(3, &why);
+}
+
 #[test]
 fn what_cannot_be_simulated_is_refused() {
     let folder = Folder::new();
