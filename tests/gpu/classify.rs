@@ -283,7 +283,7 @@ fn a_saved_state_goes_on_as_if_uncut() {
 /// same.
 #[test]
 fn tables_in_parts_hold_the_same_state() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let config = SurfaceFoamStateConfig::new(700).with(|it| it.max_stride = 20);
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));

@@ -93,7 +93,7 @@ fn verbose(name: &str, census: &crate::reference::Census) {
 /// The texels are random, so that none can stand for another.
 #[test]
 fn a_map_becomes_the_twins_cube() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let bits = gpu.limits().sub_texel_precision_bits;
@@ -133,7 +133,7 @@ fn a_map_becomes_the_twins_cube() {
 /// From noon to after sunset, and a sun direction that is not of unit length.
 #[test]
 fn the_sky_becomes_the_twins_cube() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = 32;
@@ -164,7 +164,7 @@ fn the_sky_becomes_the_twins_cube() {
 /// Radiance is limited to the range of half precision, so all mip levels are finite.
 #[test]
 fn radiance_over_half_precision_is_cut() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let mut rig = Rig::new(&gpu, &config(extent(16, 8)));

@@ -134,7 +134,7 @@ fn far_spray_keeps_its_light() {
 /// would have so few that the sum's random error shows.
 #[test]
 fn far_spray_of_half_floats_keeps_its_light() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let unblended = Some(ash::vk::Format::R32G32_SFLOAT);
     claim(&mut gpu, Claims { unblended, ..Claims::default() });
     spray_keeps_its_light(&gpu, &[0.5]);

@@ -21,7 +21,7 @@ const NO_MEMORY: vk::Result = vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
 /// A device with the spy in its function table. The returned Gpu holds the lock that gives the spy
 /// to one test at a time.
 fn spied() -> (Gpu, Device) {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let functions = spy::functions(&gpu);
     let allocator = gpu.make_allocator(&functions);
     let mut device = gpu.take_device();
@@ -252,7 +252,7 @@ fn a_camera_that_rests_keeps_the_scene() {
 /// until the next step.
 #[test]
 fn a_step_makes_foam() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let device = gpu.take_device();
     let size = extent(64, 48);
     let config = config(size).with(|it| it.surface_foam = true);

@@ -37,7 +37,7 @@ fn claimed(
     claims: Claims,
     checks: impl Fn(&spy::Bound, u64),
 ) {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let shot = shot();
     let expected = Rig::new(&gpu, config).draw(&shot);
@@ -134,7 +134,7 @@ fn bindings_are_no_longer_than_the_device_allows() {
 /// An offset that another device could bind may not be aligned for this one.
 #[test]
 fn offsets_that_the_device_cannot_bind_are_errors() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     claim(&mut gpu, Claims { offset_alignment: Some(256), ..Claims::default() });
     let gpu = gpu;
     let mut rig = Rig::new(&gpu, &config(extent(32, 16)));
@@ -169,7 +169,7 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
 #[test]
 fn timestamps_that_wrap_are_still_durations() {
     for bits in [36_u32, 48, 64] {
-        let mut gpu = Gpu::spied();
+        let mut gpu = Gpu::own();
         spy::install(&mut gpu);
         let claims = Claims {
             timestamp_valid_bits: Some(bits),
@@ -200,7 +200,7 @@ fn timestamps_that_wrap_are_still_durations() {
 /// On a queue without timestamps there are no queries, no timings and no error.
 #[test]
 fn a_queue_without_timestamps_has_no_timings() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let size = extent(32, 16);
     let expected = Rig::new(&gpu, &config(size)).draw(&water(size));
@@ -221,7 +221,7 @@ fn a_queue_without_timestamps_has_no_timings() {
 /// setting.
 #[test]
 fn what_the_device_does_not_bind_at_once_is_an_error() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     claim(&mut gpu, Claims { max_storage_buffer_range: Some(1 << 17), ..Claims::default() });
     let gpu = gpu;
     // 8 bytes per pixel of 120x120 are 115 200, below the limit of 131 072.
@@ -308,7 +308,7 @@ fn set(limits: &mut vk::PhysicalDeviceLimits, name: &str, value: u32) {
 /// limit is lower by 1, the error names it.
 #[test]
 fn limits_are_what_the_shaders_use() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let all = gpu.limits();
     let base = config(extent(64, 48));
     let whitewater = Some(WhitewaterConfig::new(64));
@@ -404,7 +404,7 @@ fn limits_are_what_the_shaders_use() {
 /// picture is the same.
 #[test]
 fn levels_beside_each_other_smooth_the_same() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let all = gpu.limits();
     for smoothing in [Smoothing::Fused, Smoothing::Tiles, Smoothing::Query(Gate::VertexCull)] {
         let config = exact(extent(64, 64)).with(|it| {

@@ -19,7 +19,7 @@ use crate::support::{slow, spy};
 use crate::surface_foam::Foamy;
 
 fn spied() -> Gpu {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     gpu
 }
@@ -517,7 +517,7 @@ fn a_failed_record_can_be_repeated() {
 /// The headless renderer reports a lost device from submit and from wait.
 #[test]
 fn headless_reports_a_lost_device() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     let functions = spy::functions(&gpu);
     let mut device = gpu.take_device();
     device.device = functions;

@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, Once, OnceLock, PoisonError, TryLockError};
 use std::thread::available_parallelism;
 
 use ash::vk;
@@ -13,6 +13,7 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Allocate, Context, Error, Host};
 
+use super::turn::{self, Turn};
 use super::watchdog::Watch;
 
 const MOST_SHARED: usize = 4;
@@ -22,9 +23,6 @@ const MOST_SHARED: usize = 4;
 /// oldest.
 const TESTS_OF_A_CONTEXT: u32 = 8;
 static SHARED: [Shared; MOST_SHARED] = [const { Shared::new() }; MOST_SHARED];
-
-/// The counts of spies and the claims about the device are global to the process.
-static SPIED: Mutex<()> = Mutex::new(());
 
 /// A device that tests use one after another.
 struct Shared {
@@ -48,6 +46,7 @@ pub struct Gpu {
     pub leaks: bool,
     _lock: Option<MutexGuard<'static, ()>>,
     _watch: Arc<Watch>,
+    _turn: Turn,
 }
 
 enum Held {
@@ -59,6 +58,7 @@ enum Held {
 pub fn validates() -> bool {
     static VALIDATES: OnceLock<bool> = OnceLock::new();
     *VALIDATES.get_or_init(|| {
+        let _alone = turn::during();
         let device = Device::new(&DeviceOptions { validation: true, ..Default::default() });
         match device {
             Ok(_) => true,
@@ -124,9 +124,24 @@ impl Shared {
         }
     }
 
+    /// All shared devices. They are made together, while no test calls Vulkan.
+    fn all() -> &'static [Self] {
+        static MADE: Once = Once::new();
+        let all = &SHARED[..available_parallelism().map_or(1, |n| n.get().min(MOST_SHARED))];
+        MADE.call_once(|| {
+            validates();
+            let _alone = turn::during();
+            for shared in all {
+                let device = shared.device.get_or_init(|| make(&DeviceOptions::default()));
+                eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
+            }
+        });
+        all
+    }
+
     /// The first device that no test uses, or else the next one that becomes free.
     fn take() -> (Held, MutexGuard<'static, ()>) {
-        let all = &SHARED[..available_parallelism().map_or(1, |n| n.get().min(MOST_SHARED))];
+        let all = Self::all();
         let free = |shared: &'static Self| match shared.one_at_a_time.try_lock() {
             Ok(lock) => Some((shared, lock)),
             Err(TryLockError::Poisoned(lock)) => Some((shared, lock.into_inner())),
@@ -136,13 +151,8 @@ impl Shared {
             let lock = all[0].one_at_a_time.lock();
             (&all[0], lock.unwrap_or_else(PoisonError::into_inner))
         });
-        let device = shared.device.get_or_init(|| {
-            let device = make(&DeviceOptions::default());
-            eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
-            device
-        });
         shared.renew_context();
-        (Held::Shared(device, shared), lock)
+        (Held::Shared(shared.device.get().expect("made"), shared), lock)
     }
 }
 
@@ -159,7 +169,7 @@ pub fn filters_in_halves() -> bool {
 }
 
 impl Gpu {
-    fn new(lock: Option<MutexGuard<'static, ()>>, device: Held) -> Self {
+    fn new(turn: Turn, lock: Option<MutexGuard<'static, ()>>, device: Held) -> Self {
         let (functions, allocator) = match &device {
             Held::Shared(device, _) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
@@ -173,6 +183,7 @@ impl Gpu {
             leaks: false,
             _lock: lock,
             _watch: Watch::begin(),
+            _turn: turn,
         };
         // SAFETY: the physical device belongs to the instance.
         let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical) };
@@ -182,8 +193,10 @@ impl Gpu {
 
     /// One of the devices that most tests share.
     pub fn shared() -> Self {
+        Shared::all();
+        let turn = turn::beside();
         let (device, lock) = Shared::take();
-        let gpu = Self::new(Some(lock), device);
+        let gpu = Self::new(turn, Some(lock), device);
         drop(messages_of(&gpu));
         gpu
     }
@@ -193,21 +206,19 @@ impl Gpu {
         Self::own_with(&DeviceOptions::default())
     }
 
-    /// A device of the test's own, created with these options.
+    /// A device of the test's own, created with these options. The test must not have taken a shared
+    /// device before.
     pub fn own_with(options: &DeviceOptions) -> Self {
-        Self::new(None, Held::Own(Box::new(make(options))))
+        Shared::all();
+        let turn = turn::alone();
+        Self::new(turn, None, Held::Own(Box::new(make(options))))
     }
 
-    /// A device of the test's own for a spy or for claims; only one exists at a time.
-    pub fn spied() -> Self {
-        let lock = SPIED.lock().unwrap_or_else(PoisonError::into_inner);
-        Self::new(Some(lock), Held::Own(Box::new(make(&DeviceOptions::default()))))
-    }
-
-    /// Panics unless the device was created by [`spied`](Self::spied).
-    pub fn assert_spied(&self) {
+    /// Panics on a shared device: spies and claims are global to the process, so their test must run
+    /// alone.
+    pub fn assert_own(&self) {
         let own = matches!(self.device, Some(Held::Own(_)));
-        assert!(own && self._lock.is_some(), "Gpu::spied() is for spies and claims");
+        assert!(own, "Gpu::own() is for spies and claims");
     }
 
     /// The host's side of the contract.

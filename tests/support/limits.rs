@@ -109,7 +109,7 @@ unsafe extern "system" fn formats(
 
 /// Makes the library see these claims.
 pub fn claim(gpu: &mut Gpu, claims: Claims) {
-    gpu.assert_spied();
+    gpu.assert_own();
     let instance = &gpu.instance;
     let mut functions = instance.fp_v1_0().clone();
     let real = (

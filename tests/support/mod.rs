@@ -12,6 +12,7 @@ pub mod shaded;
 pub mod skipped;
 pub mod spy;
 pub mod tolerance;
+pub mod turn;
 pub mod watchdog;
 
 /// Whether long tests are enabled.

@@ -609,7 +609,7 @@ fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
 
 /// The device's functions with the spy in front.
 pub fn functions(gpu: &Gpu) -> ash::Device {
-    gpu.assert_spied();
+    gpu.assert_own();
     let handle = gpu.device.handle();
     let load = |name: &CStr| -> *const c_void {
         // SAFETY: live instance and device.

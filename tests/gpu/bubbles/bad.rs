@@ -14,7 +14,7 @@ type Look = (&'static str, fn(&mut BubbleSettings));
 
 #[test]
 fn bad_blobs_are_errors_before_any_command() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);

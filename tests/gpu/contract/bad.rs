@@ -271,7 +271,7 @@ fn bad_frames_in_the_sun_are_errors_before_any_command() {
 }
 
 fn bad_frames_in_the_sun(kind: Shadows) {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);
@@ -316,7 +316,7 @@ fn bad_frames_in_the_sun(kind: Shadows) {
 /// record.
 #[test]
 fn bad_frames_are_errors_before_any_command() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);

@@ -183,7 +183,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
     // nothing is submitted.
     unsafe {
         let entry = ash::Entry::load().expect("a loader");
-        let of_1_3 = Gpu::shared();
+        let of_1_3 = Gpu::own();
         for version in [vk::API_VERSION_1_0, vk::API_VERSION_1_1, vk::API_VERSION_1_2] {
             let enough = version == vk::API_VERSION_1_2;
             let application = vk::ApplicationInfo::default().api_version(version);

@@ -488,7 +488,7 @@ fn packets_cast_as_single_particles() {
 /// change the result. The particles come as interleaved records with a count on the GPU.
 #[test]
 fn pieces_do_not_show() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     // Buffers with one entry per pixel are bound whole; they hold 32 bytes per pixel.
     let (cloud, config) = all_kinds_of(extent(13, 12), 64);

@@ -188,7 +188,7 @@ fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
 /// barriers.
 #[test]
 fn each_barrier_of_the_tiles_lists_is_needed() {
-    let mut gpu = Gpu::spied();
+    let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     // 25 by 22 tiles; no other buffer has this size.
     let size = extent(200, 170);
