@@ -203,7 +203,18 @@ fn errors_say_what_is_there() {
     let none = fails(&["f_3.bgeo", "h_*.bgeo"], None).to_string();
     assert!(none.contains("h_*.bgeo") && none.contains("the first is f_3.bgeo"), "{none}");
     let outside = fails(&["f_*.bgeo"], Some("5-9")).to_string();
-    assert!(outside.contains("5 to 9") && outside.contains("frames 3 to 3"), "{outside}");
+    assert_eq!(outside, "no frame from 5 to 9; the only frame found is 3");
+    let folder = Files::new("nearest", &["f_3.bgeo", "f_5.bgeo", "f_8.bgeo", "f_12.bgeo"]);
+    for (range, told) in [
+        ("9-11", "no frame from 9 to 11; the nearest of 4 found are 8 and 12"),
+        ("6", "no frame 6; the nearest of 4 found are 5 and 8"),
+        ("0-2", "no frame from 0 to 2; the 4 found are 3 to 12: the first is nearest"),
+        ("13", "no frame 13; the 4 found are 3 to 12: the last is nearest"),
+    ] {
+        let range = parse_range(range).unwrap();
+        let failed = expand(&[folder.input("f_*.bgeo")], Some(range)).unwrap_err();
+        assert_eq!(failed.to_string(), told);
+    }
     for range in ["", "a", "3-", "-3", "9-5", "1-2-3", "18446744073709551616"] {
         assert!(parse_range(range).is_err(), "{range}");
     }

@@ -73,15 +73,26 @@ pub enum SequenceError {
     },
     /// All files lie outside the range.
     #[error(
-        "no frame from {first} to {last}: the {count} files found are frames {lowest} to {highest}"
+        "no frame {}; {}",
+        if first == last { first.to_string() } else { format!("from {first} to {last}") },
+        match (below, above) {
+            _ if lowest == highest => format!("the only frame found is {lowest}"),
+            (Some(a), Some(b)) => format!("the nearest of {count} found are {a} and {b}"),
+            (None, _) => format!("the {count} found are {lowest} to {highest}: the first is nearest"),
+            (_, None) => format!("the {count} found are {lowest} to {highest}: the last is nearest"),
+        }
     )]
     OutsideRange {
         /// First requested number.
         first: u64,
         /// Last requested number.
         last: u64,
-        /// Files found.
+        /// Frames found.
         count: usize,
+        /// Largest number found that is below the range.
+        below: Option<u64>,
+        /// Smallest number found that is above the range.
+        above: Option<u64>,
         /// Smallest number found.
         lowest: u64,
         /// Largest number found.
@@ -238,12 +249,16 @@ pub fn within(
     };
     let (count, lowest, highest) =
         (found.len(), found.first().map_or(0, |f| f.number), found.last().map_or(0, |f| f.number));
+    let below = found.iter().map(|f| f.number).filter(|n| n < range.start()).max();
+    let above = found.iter().map(|f| f.number).filter(|n| n > range.end()).min();
     found.retain(|f| range.contains(&f.number));
     if found.is_empty() {
         return Err(SequenceError::OutsideRange {
             first: *range.start(),
             last: *range.end(),
             count,
+            below,
+            above,
             lowest,
             highest,
         });

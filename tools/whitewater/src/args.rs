@@ -256,13 +256,18 @@ pub struct DemoArgs {
 /// Arguments that every drawing command takes.
 #[derive(Args, Debug)]
 pub struct DrawArgs {
-    /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264, at --fps);
-    /// may be given twice
+    /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264); may be given
+    /// twice
     ///
     /// In the output names of a sequence, the frame number replaces %04d; in a name without it, the number is put
     /// before the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
+    /// Frames per second at which a film plays [default: the sequence's own, in real time]
+    ///
+    /// A sequence of 500 frames a second plays 20 times slower than real time at 25.
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub film_fps: Option<f32>,
     /// Size in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (u32, u32),

@@ -1,6 +1,6 @@
 //! Additional attributes: those that separate walls from water.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::Path;
 
 use glam::Vec3;
@@ -238,6 +238,18 @@ pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
     let all = particles.extras.iter().filter(phase);
     all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
+}
+
+/// The values of a phase attribute whose particles are all at rest while others move: probably walls.
+pub fn at_rest(particles: &Particles, name: &str) -> BTreeSet<i64> {
+    let (Some(velocities), Some(extra)) = (&particles.velocities, find(particles, name)) else {
+        return BTreeSet::new();
+    };
+    let both = velocities.iter().zip(&extra.values);
+    let moving: BTreeSet<i64> =
+        both.filter(|(v, _)| **v != [0.0; 3]).map(|(_, value)| *value as i64).collect();
+    let resting = extra.values.iter().map(|value| *value as i64).filter(|v| !moving.contains(v));
+    if moving.is_empty() { BTreeSet::new() } else { resting.collect() }
 }
 
 /// Messages about attributes that distinguish phases but are used by no `--where` and no `--fluid`, or hold words

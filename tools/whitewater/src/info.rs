@@ -17,6 +17,7 @@ use crate::out;
 use crate::placing;
 use crate::radii;
 use crate::reader::Has;
+use crate::summary::Summary;
 use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
@@ -25,6 +26,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     let frames = expand(&inputs).map_err(frames::advised)?;
     let mut all = Vec::new();
     let mut failed = Vec::new();
+    let mut summary = Summary::default();
     for frame in &frames {
         let path = frame.path.display().to_string();
         match extras::read(frame, &[], &Fluids::default(), None) {
@@ -36,6 +38,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
                 if let Some(Ok(())) = unsure {
                     radii::take(&mut particles, radii::UNSURE, &frame.path)?;
                 }
+                summary.add(frame.number, &particles);
                 let value = describe(&path, frame, &particles);
                 if args.json {
                     all.push(value);
@@ -56,6 +59,8 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     if args.json {
         let text = serde_json::to_string_pretty(&Value::Array(all)).unwrap_or_default();
         out::print(format_args!("{text}\n"))?;
+    } else if let Some(text) = summary.text(&frames) {
+        out::print(format_args!("{text}"))?;
     }
     if failed.is_empty() {
         return Ok(());
@@ -110,6 +115,10 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
             (name.to_string(), Value::Object(values.collect()))
         })
         .collect();
+    let at_rest: Map<String, Value> = extras::phases(particles)
+        .into_iter()
+        .map(|(name, _)| (name.to_string(), json!(extras::at_rest(particles, name))))
+        .collect();
     json!({
         "file": path,
         "frame": frame.number,
@@ -124,6 +133,7 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
         "time": particles.time.or(frame.time),
         "radii": radii::radii(particles),
         "phases": phases,
+        "at_rest": at_rest,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
         "up": up(particles),
@@ -249,9 +259,13 @@ fn text(value: &Value) -> String {
         lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
     }
     for (name, values) in value["phases"].as_object().into_iter().flatten() {
-        let values = values.as_object().into_iter().flatten();
-        let all: Vec<_> =
-            values.map(|(value, count)| format!("{value} ({count} particles)")).collect();
+        let at_rest = value["at_rest"][name].as_array().map(Vec::as_slice).unwrap_or_default();
+        let one = |(value, count): (&String, &Value)| {
+            let rests = at_rest.iter().any(|resting| resting.to_string() == *value);
+            let rests = if rests { ", all at rest: walls?" } else { "" };
+            format!("{value} ({count} particles{rests})")
+        };
+        let all: Vec<_> = values.as_object().into_iter().flatten().map(one).collect();
         lines.push(format!("  values      {name}: {}", all.join(", ")));
     }
     let [axis, sure, why] =

@@ -43,6 +43,7 @@ mod smoothstep;
 mod spouts;
 mod spray;
 mod stage;
+mod summary;
 mod surface_foam;
 mod timings;
 mod turntable;

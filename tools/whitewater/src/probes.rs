@@ -32,6 +32,26 @@ pub struct Probes {
 /// Number of frame pairs from which the time step is estimated; some may lack the necessary data.
 const PAIRS: usize = 6;
 
+/// Frame numbers per second, from the velocities and positions of two consecutive frames in the middle of the sequence.
+pub fn rate(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
+    let apart = |pair: &[Frame]| {
+        let [a, b] = pair else { return None };
+        let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
+        let seconds = surface_foam::seconds(&first, &second)?;
+        Some((b.number - a.number) as f32 / seconds)
+    };
+    let middle = all.len().saturating_sub(1) / 2;
+    let pairs = all.windows(2).skip(middle).chain(all.windows(2).take(middle));
+    pairs.take(PAIRS).find_map(apart)
+}
+
+/// The most frequent step between frame numbers.
+pub fn step_of(all: &[Frame]) -> f32 {
+    let apart: Vec<f32> =
+        all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();
+    surface_foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
+}
+
 impl Probes {
     pub fn read(reader: &mut Reader<'_>, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
         let mut picks: Vec<usize> =
@@ -63,15 +83,7 @@ impl Probes {
         let own = reader.seen;
         // The frame rate is found from velocities in the files, because estimated velocities themselves depend on the
         // rate.
-        let apart = |pair: &[Frame]| {
-            let [a, b] = pair else { return None };
-            let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
-            let seconds = surface_foam::seconds(&first, &second)?;
-            Some((b.number - a.number) as f32 / seconds)
-        };
-        let middle = (all.len() - 1) / 2;
-        let fps = all.windows(2).skip(middle).chain(all.windows(2).take(middle)).take(PAIRS);
-        let fps = if own.velocities && own.ids { fps.filter_map(apart).next() } else { None };
+        let fps = if own.velocities && own.ids { rate(reader, all) } else { None };
         let first = all.first().map_or(0, |f| f.number);
         Ok(Self { frames, numbers, fps, first, own })
     }

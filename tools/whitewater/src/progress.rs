@@ -38,7 +38,8 @@ pub struct Progress {
     step: Arc<Mutex<Option<Step>>>,
     total: usize,
     done: usize,
-    began: Instant,
+    /// When the first item was finished: it takes longer than the others, because pipelines are created for it.
+    first: Option<Instant>,
 }
 
 /// Reports steps.
@@ -75,7 +76,7 @@ impl Progress {
             let watched = Arc::downgrade(&step);
             std::thread::spawn(move || watch(&watched));
         }
-        Self { bar, step, total, done: 0, began: Instant::now() }
+        Self { bar, step, total, done: 0, first: None }
     }
 
     /// A handle for code that runs steps.
@@ -107,18 +108,13 @@ impl Progress {
             bar.inc(1);
             return;
         }
-        let left = self.total.saturating_sub(self.done);
-        let eta = self.began.elapsed() * left as u32 / self.done as u32;
-        match (self.total, left) {
-            (1, _) => self.say(line),
-            (total, 0) => self.say(&format!("{line} ({} of {total})", self.done)),
-            (total, _) => {
-                self.say(&format!(
-                    "{line} ({} of {total}, {} to go)",
-                    self.done,
-                    HumanDuration(eta)
-                ));
-            }
+        let (total, done) = (self.total, self.done);
+        let first = *self.first.get_or_insert_with(Instant::now);
+        let left = time_left(first.elapsed(), done, total)
+            .map(|left| format!(", {} to go", HumanDuration(left)));
+        match total {
+            1 => self.say(line),
+            _ => self.say(&format!("{line} ({done} of {total}{})", left.unwrap_or_default())),
         }
     }
 
@@ -127,6 +123,13 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// Time that the remaining items will take, from the time since the first was finished; `None` if there is no other
+/// one yet, or none is left.
+fn time_left(since_first: Duration, done: usize, total: usize) -> Option<Duration> {
+    let (timed, left) = (done.checked_sub(1)? as u32, total.saturating_sub(done) as u32);
+    (timed > 0 && left > 0).then(|| since_first * left / timed)
 }
 
 impl Drop for Progress {
@@ -182,6 +185,15 @@ mod tests {
             (0..200).filter(|s| step.told(Duration::from_secs(*s)).is_some()).collect();
         assert_eq!(told, [3, 30, 60, 120]);
         assert_eq!(step.told(Duration::from_secs(300)).as_deref(), Some("draw, 300 s so far"));
+    }
+
+    #[test]
+    fn the_first_item_does_not_count_for_the_time_left() {
+        let seconds = Duration::from_secs;
+        assert_eq!(time_left(seconds(0), 1, 10), None);
+        assert_eq!(time_left(seconds(3), 2, 10), Some(seconds(24)));
+        assert_eq!(time_left(seconds(6), 3, 10), Some(seconds(21)));
+        assert_eq!(time_left(seconds(27), 10, 10), None);
     }
 
     #[test]

@@ -13,13 +13,12 @@ use crate::frames;
 use crate::looks::{Found, Sequence, look, round};
 use crate::output;
 use crate::placing::Placing;
-use crate::probes::Probes;
+use crate::probes::{Probes, step_of};
 use crate::progress::Progress;
 use crate::reader::{DEFAULT_FPS, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
 use crate::shore::{self, Shores};
-use crate::surface_foam;
 use crate::turntable::{Turning, stills};
 use crate::upright::{self, Found as Upright};
 use crate::whitewater_source;
@@ -423,11 +422,4 @@ fn spacing(
             }
         },
     }
-}
-
-/// The most frequent step between frame numbers.
-fn step_of(all: &[Frame]) -> f32 {
-    let apart: Vec<f32> =
-        all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();
-    surface_foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
 }

@@ -68,7 +68,7 @@ pub struct Look {
     pub fps: Option<f32>,
     /// Frames per second for motion vectors; `None` if nothing moves.
     pub rate: Option<f32>,
-    /// Frames per second of a film.
+    /// Frames per second of a film, unless `--film-fps` sets it.
     pub film: f32,
     /// Number of particles of the probed frame that has the most; the first renderer has room for that many.
     pub fullest: usize,
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
         let (last, timings, trace) = (times.clone(), args.timings.clone(), args.trace.clone());
         let films = targets.iter().filter(|target| target.format == Output::Film);
         let films = films.map(|target| target.path(0)).collect();
-        let reel = Reel::new(films, args.size, look.film)?;
+        let reel = Reel::new(films, args.size, args.film_fps.unwrap_or(look.film))?;
         // After an interruption the film holds the frames drawn so far.
         let filmed = reel.clone();
         output::at_interrupt(move || {

@@ -71,6 +71,38 @@ fn info_tells_what_became_of_attributes() {
     }
 }
 
+/// Below the frames of a sequence stands what holds for the whole.
+#[test]
+fn info_sums_up_a_sequence() {
+    let folder = Folder::new();
+    // A block that moves to the right, with 50 frames a second, and is faster in frame 14. Its wall rests.
+    for (frame, speed, way) in [(10, 2.0, 0.0), (12, 2.0, 0.04), (14, 3.0, 0.09)] {
+        let mut rows = String::from("x,y,z,vx,vy,vz,id,type\n");
+        for (i, [x, y, z]) in block(4).into_iter().enumerate() {
+            rows += &format!("{},{y},{z},{speed},0,0,{i},1\n", x + way);
+            rows += &format!("{},{y},{z},0,0,0,{},7\n", x - 1.0, 1000 + i);
+        }
+        folder.text(&format!("run_{frame}.csv"), &rows);
+    }
+    let text = folder.run("info run_*.csv").ok().stdout();
+    for part in [
+        "3 frames, 10 to 14\n  particles   128 to 128\n",
+        "rate        50 frames a second (from velocities and positions)",
+        "liveliest   frame 14, with a root mean square speed of 2.121",
+        "values      type: 1 (64 particles), 7 (64 particles, all at rest: walls?)",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!folder.run("info run_10.csv").ok().stdout().contains("frames a second"));
+    // Without velocities the rate is assumed.
+    for frame in 1..3 {
+        folder.text(&format!("bare_{frame}.csv"), "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
+    }
+    let text = folder.run("info bare_*.csv").ok().stdout();
+    assert!(text.contains("30 frames a second (assumed; --fps of render sets it)"), "{text}");
+    assert!(!text.contains("liveliest"), "{text}");
+}
+
 #[test]
 fn info_goes_on_after_a_bad_file() {
     let folder = Folder::new();

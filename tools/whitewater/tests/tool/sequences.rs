@@ -59,6 +59,13 @@ fn a_film_has_all_frames() {
     // The film is always drawn as a whole, whatever exists already.
     folder.run(&format!("{command} --every 2")).ok();
     assert_eq!(folder.film("film.mp4"), (2, 6.0));
+    // It can play at another rate.
+    let slow = folder.run(&format!("{command} --film-fps 6")).ok();
+    assert_eq!(folder.film("film.mp4"), (4, 6.0));
+    assert!(!slow.stderr().contains("--film-fps"), "{}", slow.stderr());
+    let fast = folder.run(&format!("{command} --fps 480").replace("--fps 12 ", "")).ok();
+    assert!(fast.stderr().contains("480 frames a second, more than"), "{}", fast.stderr());
+    folder.run(&format!("{command} --every 2")).ok();
     folder.run(&command.replace("96x64", "95x64")).fails(2, &["--size", "96x64"]);
     folder.run(&command.replace("film", "film_%d")).fails(2, &["film_%d.mp4"]);
     assert_eq!(folder.film("film.mp4"), (2, 6.0), "the one before is kept");

@@ -1,0 +1,76 @@
+//! What `whitewater info` says of a sequence as a whole, below its frames.
+
+use glam::Vec3;
+use whitewater::io::particles::Particles;
+use whitewater::io::particles::sequence::Frame;
+
+use crate::args::Up;
+use crate::fluids::Fluids;
+use crate::looks::round;
+use crate::placing::Placing;
+use crate::probes;
+use crate::reader::{DEFAULT_FPS, Has, Reader};
+
+/// Properties of the frames that were added.
+#[derive(Default)]
+pub struct Summary {
+    count: usize,
+    fewest: usize,
+    most: usize,
+    own: Has,
+    /// Number and root mean square speed of the frame whose water is fastest.
+    liveliest: Option<(u64, f32)>,
+}
+
+impl Summary {
+    pub fn add(&mut self, number: u64, particles: &Particles) {
+        let count = particles.positions.len();
+        self.fewest = if self.count == 0 { count } else { self.fewest.min(count) };
+        self.most = self.most.max(count);
+        self.count += 1;
+        self.own = self.own.or(Has::of(particles));
+        let squares = particles.velocities.iter().flatten();
+        let squares: Vec<f64> = squares
+            .map(|v| f64::from(Vec3::from(*v).length_squared()))
+            .filter(|square| square.is_finite())
+            .collect();
+        let speed = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt() as f32;
+        if speed > self.liveliest.map_or(0.0, |(_, speed)| speed) {
+            self.liveliest = Some((number, speed));
+        }
+    }
+
+    /// The summary; `None` if `all` is not one sequence of several frames.
+    pub fn text(&self, all: &[Frame]) -> Option<String> {
+        let ([first, .., last], true) = (all, all.is_sorted_by(|a, b| a.number < b.number)) else {
+            return None;
+        };
+        let placing = Placing { up: Up::Y, scale: 1.0, origin: [0.0; 3] };
+        let fluids = Fluids::default();
+        let reader = Reader::new(all, placing, (&[], &fluids), None);
+        let moving = self.own.velocities && self.own.ids;
+        let by_motion = if moving { probes::rate(&reader, all) } else { None };
+        let (rate, found) = match by_motion.map(|rate| (rate, "from velocities and positions")) {
+            Some(found) => found,
+            None => match reader.rate() {
+                Some(rate) => (rate, "from the frames' times"),
+                None => (DEFAULT_FPS * probes::step_of(all), "assumed; --fps of render sets it"),
+            },
+        };
+        let rate = round(rate / probes::step_of(all));
+        let mut text = format!(
+            "{} frames, {} to {}\n  particles   {} to {}\n  rate        {rate} frames a second ({found})\n",
+            all.len(),
+            first.number,
+            last.number,
+            self.fewest,
+            self.most,
+        );
+        if let Some((number, speed)) = self.liveliest {
+            text += &format!(
+                "  liveliest   frame {number}, with a root mean square speed of {speed:.3}\n"
+            );
+        }
+        Some(text)
+    }
+}
