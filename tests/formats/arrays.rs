@@ -157,6 +157,24 @@ fn structured_arrays() {
     }
 }
 
+/// Arrays with a dimension of 0 hold no particles, or are an error. Fuzzing found that rows of no
+/// elements panicked.
+#[test]
+fn arrays_without_elements() {
+    let table = "[('pos', '<f4', (3,)), ('rho', '<f4')]";
+    for shape in ["(0,)", "(0, 3)", "(5, 0)", "(0, 0)", "(1, 0)", "(5, 0, 3)", "(0, 5, 3)"] {
+        for (descr, fortran) in [(table, false), (table, true), ("<f4", false), ("<f4", true)] {
+            for raw in [&[][..], &[0; 256]] {
+                let read = read_bytes(&npy(descr, shape, fortran, raw), Extension::Npy);
+                let count = read.map_or(0, |read| read.positions.len());
+                assert_eq!(count, 0, "{descr} {shape} {fortran}");
+            }
+        }
+    }
+    let rows_of_none = npy(table, "(5, 0)", false, &[0; 256]);
+    error(&rows_of_none, Extension::Npy, &["(5, 0)", "5 frames of 0 particles"]);
+}
+
 #[test]
 fn half_precision() {
     let cloud = samples::cloud();

@@ -102,7 +102,7 @@ impl Header {
         let mut fields = Vec::new();
         let mut big_endian = self.members.first().is_some_and(|member| member.big_endian);
         if self.structured {
-            if rowed.components > 1 {
+            if rowed.components != 1 {
                 let (frames, rows) = (rowed.rows, rowed.components);
                 return Err(ReadError::Unsupported {
                     what: format!(
