@@ -24,8 +24,12 @@ const float BLOCK = 8.0;
 // At a block's border cells are not lengthened, because the noise would jump there from one block to the next. The
 // lengthening begins to decrease at this part of the way from the centre to the border.
 const float INNER = 0.8;
+// Each octave's amplitude is this many times that of the next coarser one, up to MOST_AMPLITUDE: spray is grains more
+// than clouds. (With equal amplitudes it looks like wool.)
+const float STRONGER = 1.4;
+const float MOST_AMPLITUDE = 4.0;
 // Max logarithm of the density.
-const float MOST_CLUMP = 3.0;
+const float MOST_CLUMP = 8.0;
 
 // Density of spray at a point, relative to its mean. The point belongs to a particle with the centre `particle` and
 // the velocity `velocity`. Octaves with cells narrower than `pixel`, and all from number `octaves` on, are left out.
@@ -49,14 +53,16 @@ float clumps_at(vec3 point, vec3 particle, vec3 velocity, float pixel, uint octa
         float on = dot(off, along);
         block += frame.foam_octaves[1u + phase];
         float finer = 1.0;
-        float height = part * frame.spray_mist.x * told_apart(coarsest, pixel);
+        float amplitude = frame.spray_mist.x;
+        float height = part * amplitude * told_apart(coarsest, pixel);
         for (uint k = 0u; k < octaves && height > 0.0; ++k) {
             vec3 at = finer * (block + off - along * (on * excess / (1.0 + excess)));
             // Half of the variance of the logarithm is subtracted, which keeps the mean.
             sum += height * (gradient_noise(at) - 0.5 * VARIANCE * height);
             finer *= FINER;
             excess *= ROUNDER;
-            height = part * frame.spray_mist.x * told_apart(coarsest / finer, pixel);
+            amplitude = min(STRONGER * amplitude, MOST_AMPLITUDE);
+            height = part * amplitude * told_apart(coarsest / finer, pixel);
         }
     }
     return exp(min(sum, MOST_CLUMP));

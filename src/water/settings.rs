@@ -838,10 +838,11 @@ pub struct SpraySettings {
     pub mist_size: f32,
     /// How strongly the droplets and mist of all particles gather in clumps and strands, [0, 3], default 0 = even. No
     /// effect if [`droplets`](Self::droplets) is 1. The natural logarithm of the density is a sum of octaves of
-    /// gradient noise: seven for mist, three for droplets. This is the amplitude of each octave, whose root mean
-    /// square is 0.27 of it. The coarsest cells are three spacings wide, those of each further octave about half as
-    /// wide; octaves with cells narrower than a pixel are left out. The logarithm is limited to 3. The density
-    /// multiplies the optical depth of mist. Below 1 it reduces the number of droplets, above 1 it multiplies their
+    /// gradient noise: seven for mist, three for droplets. This is the amplitude of the coarsest octave; the amplitude of
+    /// each further octave is 1.4 times that of the one before, up to 4. An octave's root mean square is 0.27 of its
+    /// amplitude. The coarsest cells are three spacings wide, those of each further octave about half as wide; octaves
+    /// with cells narrower than a pixel are left out. The logarithm is limited to 8. The density multiplies the optical
+    /// depth of mist. Below 1 it reduces the number of droplets, above 1 it multiplies their
     /// optical depth. Particles that are near each other and move alike share the noise. It moves with them and
     /// restarts as the pattern of foam does ([`SurfaceFoamSettings::pattern_period`], [`SurfaceFoamSettings::time`]).
     /// The coarsest cells are longer along the motion than across it: by twice the length over which

@@ -179,7 +179,7 @@ pub struct Settings {
     pub stretch: f64,
     /// Mist: the opacity at its middle, and its half-axis in spacings.
     pub mist: [f64; 2],
-    /// Amplitude of an octave of the logarithm of the density.
+    /// Amplitude of the coarsest octave of the logarithm of the density.
     pub clumps: f64,
     /// The pattern of the foam, whose phases the clumps have.
     pub pattern: Pattern,

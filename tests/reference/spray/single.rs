@@ -126,18 +126,20 @@ fn single(
                 let rim = 0.25 * (begun - block).abs().max_element();
                 let mut longer = 1.0 + (4.0 * way / wide).min(3.0) * (1.0 - step(0.8, 1.0, rim));
                 let mut finer = 1.0_f32;
+                let mut amplitude = settings.clumps as f32;
                 for _ in 0..octaves {
                     let told = step(1.0, 2.0, wide / finer / pixel);
-                    let height = settings.clumps as f32 * phase.part as f32 * told;
+                    let height = amplitude * phase.part as f32 * told;
                     let round = off + off.dot(on) * (1.0 / longer - 1.0) * on;
                     let at = finer * (round + block + phase.began as f32);
                     let noise = noise(at.as_dvec3()) as f32;
                     sum += height * noise - 0.5 * 0.073 * height * height;
                     finer *= 2.03;
+                    amplitude = (1.4 * amplitude).min(4.0);
                     longer = 1.0 + 0.75 * (longer - 1.0);
                 }
             }
-            sum.min(3.0).exp()
+            sum.min(8.0).exp()
         };
         let density = if mist { 1.0 } else { clumps(p, 3, pixel) };
         let fade = ((density - random(12288 + k)) / 0.2 + 0.5).clamp(0.0, 1.0);

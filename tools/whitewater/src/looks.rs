@@ -41,6 +41,9 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
     each.flatten().fold(0.0, f32::max)
 }
 
+/// Frame rate above which a film is faster than most screens, frames per second.
+const SHOWN_FPS: f32 = 60.0;
+
 /// Density limits of spray in caches: only lone particles, or nearly lone ones, are all spray. Solvers' densities are
 /// low at every surface, in sheets and in jets, so that the library's limit of 0.85 turns most of a splash to spray (82
 /// % of the highest tenth of two solid jets; limits of 0.44, 0.66 and 0.7 turn 23 %, these fewer). A particle with one neighbour one spacing
@@ -60,7 +63,7 @@ pub const LONE: f32 = 0.35;
 /// their motion, by their differences in speed over a third of the time of a fall through a spacing. Mist comes from
 /// fast water: its share grows with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.65 * (speed / 6.0).min(1.0).powi(2);
+    let torn = (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -68,13 +71,13 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.size = 0.16;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
-        it.mist = mist;
-        it.mist_size = 2.0;
-        it.clumps = 2.0;
+        it.mist = 0.27 * torn;
+        it.mist_size = 2.4;
+        it.clumps = 1.3;
         it.strand_ratio = 6.0;
         it.few_neighbours = [3.5, 9.0];
         it.exposure = 0.001;
-        it.shade = 2.5 + 48.0 * mist;
+        it.shade = 2.5 + 31.0 * torn;
         it.scattering = 0.6;
         it.relief = 2.5;
         it.glints = 12.0;
@@ -416,6 +419,10 @@ pub fn look(
             let found = if probes.fps.is_some() { "found" } else { "assumed" };
             let fps = round(fps / sequence.step);
             progress.say(&format!("{fps} frames a second ({found}; --fps sets it)"));
+        }
+        if sequence.film.is_some() && args.draw.film_fps.is_none() && film > SHOWN_FPS {
+            let rate = round(film);
+            progress.say(&format!("the film has {rate} frames a second, more than most screens show (--film-fps sets it)"));
         }
         fps
     });
