@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::Command;
-use std::sync::Once;
+use std::sync::{Once, mpsc};
 use std::time::{Duration, Instant};
 
 use ash::vk;
@@ -19,6 +19,7 @@ use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::skipped::skipped;
 use crate::support::tolerance;
+use crate::support::turn;
 use crate::support::watchdog::{self, Watch};
 
 /// Whether a check panics, without printing. The panic hook is shared by all threads and set once,
@@ -271,6 +272,21 @@ fn a_leak_fails_the_test() {
         drop(gpu);
     });
     assert!(failed, "a renderer that was not destroyed is a leak");
+}
+
+/// While a test has a device of its own, no other test calls Vulkan: the other one waits until this
+/// thread ends.
+#[test]
+fn a_test_with_its_own_device_runs_alone() {
+    let own = Gpu::own();
+    let (tell, told) = mpsc::channel();
+    std::thread::spawn(move || {
+        let _turn = turn::beside();
+        let _ = tell.send(());
+    });
+    drop(own);
+    let waits = told.recv_timeout(Duration::from_millis(200)).is_err();
+    assert!(waits, "another test ran beside this one");
 }
 
 /// Runs in a child process, which the watchdog ends.

@@ -145,7 +145,8 @@ mod tests {
             let chance = 4.0 * (square / all.len() as f64).sqrt();
             let sampled = strength > 0.5 || (mean - 1.0).abs() < 0.04 + chance;
             assert!(sampled, "{strength}: {mean}, chance {chance}");
-            let octaves = (0..OCTAVES[0]).map(|k| (strength * 1.4_f64.powi(k as i32)).min(4.0));
+            let octaves =
+                (0..OCTAVES[0] as i32).map(|k| (strength * STRONGER.powi(k)).min(MOST_AMPLITUDE));
             let most = octaves.map(|it| VARIANCE * it * it).sum::<f64>();
             let (_, square) = moments(|x| x.ln());
             assert!((0.5 * most..1.05 * most).contains(&square), "{strength}: {square} of {most}");
