@@ -1,6 +1,6 @@
 //! `whitewater info`: contents of particle files.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use serde_json::{Map, Value, json};
 use whitewater::io::particles::sequence::{self, Frame, SequenceError};
@@ -115,9 +115,11 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
             (name.to_string(), Value::Object(values.collect()))
         })
         .collect();
+    // As the keys of `phases`.
+    let names = |values: BTreeSet<i64>| values.iter().map(i64::to_string).collect::<Vec<_>>();
     let at_rest: Map<String, Value> = extras::phases(particles)
         .into_iter()
-        .map(|(name, _)| (name.to_string(), json!(extras::at_rest(particles, name))))
+        .map(|(name, _)| (name.to_string(), json!(names(extras::at_rest(particles, name)))))
         .collect();
     json!({
         "file": path,
@@ -261,7 +263,7 @@ fn text(value: &Value) -> String {
     for (name, values) in value["phases"].as_object().into_iter().flatten() {
         let at_rest = value["at_rest"][name].as_array().map(Vec::as_slice).unwrap_or_default();
         let one = |(value, count): (&String, &Value)| {
-            let rests = at_rest.iter().any(|resting| resting.to_string() == *value);
+            let rests = at_rest.iter().any(|resting| resting.as_str() == Some(value));
             let rests = if rests { ", all at rest: walls?" } else { "" };
             format!("{value} ({count} particles{rests})")
         };
