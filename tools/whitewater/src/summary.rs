@@ -50,16 +50,16 @@ impl Summary {
         let reader = Reader::new(all, placing, (&[], &fluids), None);
         let moving = self.own.velocities && self.own.ids;
         let by_motion = if moving { probes::rate(&reader, all) } else { None };
-        let (rate, found) = match by_motion.map(|rate| (rate, "from velocities and positions")) {
-            Some(found) => found,
-            None => match reader.rate() {
-                Some(rate) => (rate, "from the frames' times"),
-                None => (DEFAULT_FPS * probes::step_of(all), "assumed; --fps of render sets it"),
-            },
+        // Frame numbers per second.
+        let found = match by_motion {
+            Some(rate) => Some((rate, "from velocities and positions")),
+            None => reader.rate().map(|rate| (rate, "from the frames' times")),
         };
-        let rate = round(rate / probes::step_of(all));
+        let found = found.map(|(rate, how)| (rate / probes::step_of(all), how));
+        let (rate, how) = found.unwrap_or((DEFAULT_FPS, "assumed; --fps of render sets it"));
+        let rate = round(rate);
         let mut text = format!(
-            "{} frames, {} to {}\n  particles   {} to {}\n  rate        {rate} frames a second ({found})\n",
+            "{} frames, {} to {}\n  particles   {} to {}\n  rate        {rate} frames a second ({how})\n",
             all.len(),
             first.number,
             last.number,

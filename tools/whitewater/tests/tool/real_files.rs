@@ -177,7 +177,7 @@ fn walls_are_told_and_left_out() {
     folder.run("compare water.exr all.exr --tolerance 1e-3").fails(1, &["RMSE"]);
     assert!(!plain.contains("attribute"), "{plain}");
     let text = folder.run("info all.csv").ok().stdout();
-    assert!(text.contains("values      Type: 0 (400 particles), 3"), "{text}");
+    assert!(text.contains("values      Type: 0 (400 particles, all at rest: walls?), 3"), "{text}");
     let fails = |more: &str, parts: &[&str]| {
         folder.run(&format!("render all.csv -o a.png {more}")).fails(3, parts);
     };
@@ -601,5 +601,5 @@ fn frames_in_one_file_are_drawn() {
     folder.run(&format!("render one_*.json -o one.png {common} --frames 1")).ok();
     folder.run("compare all.0001.png one.0001.png").ok();
     let text = folder.run("info all.json").ok().stdout();
-    assert_eq!(text.matches("particles   64").count(), 2, "{text}");
+    assert_eq!(text.matches("particles   64\n").count(), 2, "{text}");
 }
