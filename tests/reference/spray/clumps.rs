@@ -122,9 +122,9 @@ mod tests {
     }
 
     /// Clumpy spray has the same mean as even spray: within 4 %, plus the sampling error of 40000
-    /// points. The logarithm of its density is at most as variable as independent octaves are, plus the
-    /// sampling error of 5 %. Above an amplitude of 0.5 so few points hold most of the spray that the
-    /// mean cannot be sampled.
+    /// points. The variance of its logarithm is at most the sum of the octaves' variances, plus 5 % for
+    /// sampling. The mean is not checked above an amplitude of 0.5, where too few points hold most of
+    /// the spray.
     #[test]
     fn clumps_keep_the_mean() {
         let mut random = Random(3);
