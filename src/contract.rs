@@ -297,7 +297,8 @@ pub struct Config {
     /// Side length of a face of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// Whether the output may also be the image that holds the scene behind the water (default true). The library
-    /// then copies the scene before it writes the output, so the output needs transfer-source usage.
+    /// then copies the scene before it writes the output, so the output needs transfer-source usage. With
+    /// [`light_map_size`](Self::light_map_size) it samples the scene instead, and the output also needs sampled usage.
     pub in_place: bool,
     /// Whether the images of intermediate layers can be read by the host after `record` (default false).
     pub keep_layers: bool,
@@ -340,8 +341,11 @@ impl Config {
     }
 }
 
-/// A frame in flight: an index below `frames_in_flight`. By passing a slot, the host promises that all GPU work
-/// recorded earlier with the same slot is complete.
+/// A frame in flight: an index below `frames_in_flight`. By passing a slot to an object, the host promises that the GPU
+/// work which this object recorded earlier with the same slot is complete. Each object has slots of its own: a step and
+/// the frame that shows it may have the same slot and command buffer. Two steps of one object in a command buffer need
+/// two slots, so a host with n steps per frame asks for n times as many
+/// ([`Context::with_frames_in_flight`](crate::Context::with_frames_in_flight)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub u32);
 
@@ -350,8 +354,9 @@ pub struct Slot(pub u32);
 #[non_exhaustive]
 pub struct HostImage {
     /// The image: single-sampled and 2D. An image that is read needs sampled usage; a depth image also needs
-    /// attachment usage, because its read-only layout requires it. An output needs the usage that
-    /// [`Config::in_place`] and [`Config::composite`] demand.
+    /// attachment usage, because its read-only layout requires it. An output needs
+    /// colour-attachment usage, or storage usage with `Shading::Compute`; if it is also the scene
+    /// ([`Config::in_place`]), transfer-source usage, and with [`Config::light_map_size`] sampled usage too.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; for depth-stencil images a view of only the depth aspect.
     pub view: vk::ImageView,
@@ -1048,8 +1053,8 @@ pub struct Shadow {
     /// light, of any size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the
     /// fluid and 0 where it does not. `rect` is the part that is used.
     pub image: HostImage,
-    /// View-projection matrix of the shadow map, from world space to the map's clip space: four columns, standard or
-    /// reversed depth. Not read if `image` is a mask.
+    /// View-projection matrix of the shadow map, from world space to Vulkan's clip space: four columns, orthographic or
+    /// perspective, standard or reversed depth. Not read if `image` is a mask.
     pub view_projection: [[f32; 4]; 4],
     /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this distance before they
     /// are compared with the map. Recommended: about a spacing plus a texel of the map. Not read for a mask.
@@ -1279,13 +1284,14 @@ impl Default for Settings {
 impl Settings {
     /// The defaults for a particle spacing in scene units (twice the solver's particle radius, (0, ∞)) and a number
     /// of scene units per metre (1 for metres, 100 for centimetres, (0, ∞)), under the default [`Sky`](crate::Sky)
-    /// with +y up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another
-    /// sky see [`with_light`](Self::with_light).
+    /// with +y up. All lengths, speeds and optical densities of these settings follow from the two numbers; those of
+    /// `shore` follow from `units_per_metre` alone. For another sky see [`with_light`](Self::with_light).
     ///
-    /// Values that belong to a frame or a simulation step do not follow from the two numbers; the host sets them:
-    /// radii of whitewater particles, [`Shore::bias`], gravity of
-    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and the Weber
-    /// number's scale ([`WeberSettings::weber_in`]).
+    /// The settings of a frame's input or of a simulation are not among these settings, and the host sets them: radii of
+    /// whitewater particles, [`Shore::bias`], `BlobSimulationSettings`
+    /// ([`in_units`](crate::bubbles::BlobSimulationSettings::in_units)), [`GeneratorSettings`]
+    /// ([`with_gravity`](GeneratorSettings::with_gravity)) and the Weber number's scale
+    /// ([`WeberSettings::weber_in`]).
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
@@ -1378,7 +1384,8 @@ impl Light {
     }
 }
 
-/// An intermediate image that `record` leaves for the host, which may read it until the next `record`.
+/// An intermediate image that `record` leaves for the host, which may read it until the next `record`. The host leaves
+/// it in the layout of `access`, and the next `record` overwrites it: its submission must wait for the host's reads.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {

@@ -41,7 +41,7 @@
 //!
 //! | input | what | needs | state |
 //! |---|---|---|---|
-//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, or storage for [`Shading::Compute`](water::Shading); format `Config.output_format`; its `rect` is the frame, at most `Config.extent`; transfer source if it is also the scene | `before` → `after` |
+//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, or storage for [`Shading::Compute`](water::Shading); format `Config.output_format`; its `rect` is the frame, at most `Config.extent`; if it is also the scene, transfer source, and sampled with `Config.light_map_size` | `before` → `after` |
 //! | `scene_color` | the scene behind the water; may be `output` itself (`Config.in_place`) | sampled, linear filtering | `before` → `after` |
 //! | `scene_depth` | device depth in the camera's convention; any size | sampled and depth attachment, a view of the depth aspect alone, single-sampled | `before` → `after` |
 //! | `particles.positions` | 3×f32, world space; NaN, infinite and huge ones are dropped and counted | storage buffer; any stride and offset that are multiples of 4 | `before` → `after` |

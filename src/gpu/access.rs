@@ -7,7 +7,9 @@ use ash::vk;
 use super::Gpu;
 use super::image::{Image, aspect_of};
 
-/// How an image or buffer is used at one point of a command buffer.
+/// How an image or buffer is used at one point of a command buffer. On a device without synchronization2 the library
+/// translates it to the stages and accesses of Vulkan 1.0. In a host's own barriers of that kind `SHADER_READ` stands
+/// for sampled and storage reads, `SHADER_WRITE` for storage writes, and `TRANSFER` for copies and clears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Access {
     /// Pipeline stages of the use.

@@ -96,9 +96,9 @@ pub fn requirements() -> Requirements {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct DeviceSupport {
-    /// Vulkan version that can be used on the device. The version of the instance limits it, as far as that can be
-    /// detected: it is 1.0 on an instance of 1.0, which cannot query newer versions, and at most 1.2 on an instance
-    /// of 1.1 or 1.2.
+    /// Vulkan version of the device. On an instance of Vulkan 1.0 it is 1.0. An instance of 1.1 or 1.2 limits what the
+    /// host may use to its own version, but most loaders do not tell it: pass the version of your instance to
+    /// [`Host::with_enabled`](crate::Host::with_enabled), whatever this field says.
     pub api_version: u32,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
@@ -115,7 +115,8 @@ pub struct DeviceSupport {
     /// The output format supports storing without a format qualifier.
     pub output_storage: bool,
     /// Optional features that the device supports. A host that enables all of them passes this value as
-    /// [`Host::enabled`](crate::Host::enabled).
+    /// [`Host::enabled`](crate::Host::enabled). `debug_utils` is always false here, because it belongs to the instance:
+    /// set it yourself.
     pub optional: EnabledFeatures,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,

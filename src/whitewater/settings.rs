@@ -12,7 +12,7 @@ pub struct WhitewaterConfig {
     /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
     /// Maximum stride in bytes, from particle to particle, of the host's buffers with whitewater attributes, a
-    /// multiple of 4, default 12.
+    /// multiple of 4, at least 12, default 16 as the buffers of a [`Generator`](crate::Generator) have.
     pub max_stride: u32,
     /// Whether frames may give the particles in groups that are culled as a whole
     /// ([`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets)). Default false.
@@ -41,7 +41,7 @@ impl WhitewaterConfig {
     pub fn new(max_particles: u32) -> Self {
         Self {
             max_particles,
-            max_stride: 12,
+            max_stride: 16,
             packets: false,
             splat: None,
             irradiance: Irradiance::Prefiltered,

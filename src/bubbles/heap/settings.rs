@@ -29,7 +29,7 @@ pub struct BlobSimulationSettings {
     /// Repulsion of two blobs: acceleration divided by the length by which their distance falls short of that of
     /// `rest`, 1/s², (0, 100 000], default 4000.
     pub stiffness: f32,
-    /// Maximum attraction of two blobs, scene units per second squared, [0, 1000], default 12.
+    /// Maximum attraction of two blobs, scene units per second squared, [0, 100 000], default 12.
     pub cohesion: f32,
     /// Damping of the relative velocity of two touching blobs along the line through their centres, 1/s, [0, 100],
     /// default 12.
@@ -47,7 +47,8 @@ pub struct BlobSimulationSettings {
     pub solid_damping: f32,
     /// Coefficient of friction on solids, [0, 10], default 0.35.
     pub friction: f32,
-    /// Height of the level water surface that blobs float on, scene units along y. Default `None`: no water.
+    /// Height of the level water surface that blobs float on, scene units along y, whatever the direction of gravity.
+    /// Default `None`: no water.
     pub water: Option<f32>,
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
@@ -92,6 +93,18 @@ impl Default for BlobSimulationSettings {
 }
 
 impl BlobSimulationSettings {
+    /// Returns these settings, whose lengths are in metres, with lengths in scene units, of which a metre has
+    /// `units_per_metre`: gravity, cohesion and the height of the water are multiplied by it.
+    #[must_use]
+    pub fn in_units(self, units_per_metre: f32) -> Self {
+        Self {
+            gravity: self.gravity.map(|v| v * units_per_metre),
+            cohesion: self.cohesion * units_per_metre,
+            water: self.water.map(|height| height * units_per_metre),
+            ..self
+        }
+    }
+
     /// These settings with the earth's gravity, for a number of scene units per metre and an up direction of unit
     /// length.
     #[must_use]
@@ -107,7 +120,7 @@ impl BlobSimulationSettings {
         range("BlobSimulationSettings.rest", self.rest, 1.0e-3, 1.0)?;
         range("BlobSimulationSettings.reach", self.reach, self.rest + 1.0e-3, 1.2)?;
         range("BlobSimulationSettings.stiffness", self.stiffness, 1.0e-3, 1.0e5)?;
-        range("BlobSimulationSettings.cohesion", self.cohesion, 0.0, 1000.0)?;
+        range("BlobSimulationSettings.cohesion", self.cohesion, 0.0, 1.0e5)?;
         range("BlobSimulationSettings.normal_damping", self.normal_damping, 0.0, 100.0)?;
         range("BlobSimulationSettings.tangential_damping", self.tangential_damping, 0.0, 100.0)?;
         range("BlobSimulationSettings.contact", self.contact, 1.0e-3, 1.0)?;

@@ -42,9 +42,11 @@ impl GeneratorConfig {
 }
 
 /// Range of a potential over which emission rises linearly from none to the full rate (`τmin`, `τmax` of Eq. 1). The
-/// paper's limits are an artist's choice, and limits that suit one simulation do not suit another. A good maximum is
-/// the 99.9th percentile of the potentials of a sequence ([`Generator::potentials`](super::Generator::potentials)); a
-/// good minimum is a tenth of that.
+/// paper's limits are an artist's choice, and limits that suit one simulation do not suit another. To find them, once
+/// per simulation: record steps with any limits and a rate of 0, over frames in which the water moves fast; copy the
+/// [`potentials`](super::Generator::potentials) to the host after each; then call
+/// [`record_reset`](super::Generator::record_reset). A good maximum is the 99.9th percentile of a potential over these
+/// frames; a good minimum is a tenth of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PotentialRange {
     /// Potential up to which nothing is emitted, [0, max).
@@ -103,7 +105,8 @@ impl GeneratorSettings {
     }
 
     /// The defaults with these limits of trapped air, wave crests and energy (in this order), and with `rate`
-    /// (particles per second) as the maximum emission from trapped air and also from wave crests.
+    /// (particles per second) as the maximum emission of one fluid particle from trapped air and also from wave crests.
+    /// Some ten thousand whitewater particles for a splash of as many fluid particles take a rate of 10 to 100.
     pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {

@@ -222,6 +222,34 @@ fn a_heap_comes_to_rest_and_loses_energy() {
     assert!(deepest < 0.2, "one has sunk by {deepest} radii into the floor");
 }
 
+/// Settings in other units move blobs alike: a heap in a world of 64 units per metre is the same, 64 times as large.
+/// The factor is a power of two, so that only sums in steps of absolute size can differ.
+#[test]
+fn a_heap_is_the_same_in_other_units() {
+    let gpu = Gpu::shared();
+    let metres = BlobSimulationSettings::default().with(|it| it.water = Some(0.2));
+    let settings = [metres, metres.in_units(64.0)];
+    let blobs = cloud(300, [0.8, 1.0, 0.8], [0.05, 0.1], 6);
+    let larger = |b: &Bubble| Bubble { ball: b.ball.map(|v| 64.0 * v), ..*b };
+    let wide: Vec<Bubble> = blobs.iter().map(larger).collect();
+    let mut both = [&blobs, &wide].map(|b| Running::new(&gpu, b, &[], None));
+    for _ in 0..20 {
+        for (running, settings) in both.iter_mut().zip(&settings) {
+            running.step(1.0 / 60.0, settings, &[FLOOR]).expect("a step");
+        }
+    }
+    let [one, other] = both.each_ref().map(Running::blobs);
+    let moved = blobs
+        .iter()
+        .zip(&one)
+        .filter(|(from, to)| (f64::from(from.ball[1]) - to.place.y).abs() > 0.05);
+    assert!(moved.count() > 200, "they hardly move");
+    for (i, (a, b)) in one.iter().zip(&other).enumerate() {
+        let apart = (64.0 * a.place).distance(b.place) / 64.0;
+        assert!(apart < 1.0e-3 * a.radius, "blob {i}: {apart} m");
+    }
+}
+
 #[test]
 fn the_order_of_blobs_is_no_matter_to_a_heap() {
     let gpu = Gpu::shared();
