@@ -3,6 +3,8 @@
 //! the image's centre, and from 2, 4 and 8 times that; the same patch of the same beds is measured
 //! each time. See `docs/smoothing.md`.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use ash::vk;
 use glam::{DVec3, Mat4};
 use whitewater::headless::{Background, Device, DeviceOptions, Headless, Picture};
@@ -152,7 +154,13 @@ impl Measured {
     }
 }
 
-fn device() -> Device {
+/// Debian's validation layer can crash if a thread makes a device while another one draws, so tests with a device run
+/// one after the other.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// A device, and what keeps others from having one.
+fn device() -> (MutexGuard<'static, ()>, Device) {
+    let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let set = |name| std::env::var_os(name).is_some_and(|value| value == "1");
     let open = |validation| Device::new(&DeviceOptions { validation, ..Default::default() });
     let device = match open(true) {
@@ -168,7 +176,7 @@ fn device() -> Device {
         let found = device.adapter.to_lowercase();
         assert!(found.contains(&expected.to_lowercase()), "expected {expected}, found {found}");
     }
-    device
+    (alone, device)
 }
 
 /// Draws the beds of a row from all its distances, and returns the device.
@@ -212,7 +220,8 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
 #[test]
 fn constant_width_keeps_its_roughness() {
     let row = Row::new("constant width", Rule::ConstantWidth);
-    let (_, measured) = measure(device(), &row, SMALL);
+    let (_alone, device) = device();
+    let (_, measured) = measure(device, &row, SMALL);
     eprintln!("{}", measured.line(row.name));
     // Check that the views are at the intended distances.
     for (view, planned) in [256.0, 64.0, 16.0, 4.0].into_iter().enumerate() {
@@ -231,7 +240,8 @@ fn constant_width_keeps_its_roughness() {
 fn near_views_keep_it_too() {
     let row = Row::near("constant width, by default, twice as near", 2.0);
     let capped = Row { coarsening: 0, ..row };
-    let (device, near) = measure(device(), &row, LARGE);
+    let (_alone, device) = device();
+    let (device, near) = measure(device, &row, LARGE);
     let (_, capped) = measure(device, &capped, LARGE);
     eprintln!("{}\n{}", near.line(row.name), capped.line("the same, capped"));
     assert!(near.holds(), "{:?}", near.spread());
@@ -244,7 +254,8 @@ fn near_views_keep_it_too() {
 fn a_checkerboard_dies_out() {
     let row = Row::new("constant width, lattice at 45° to the pixels", Rule::ConstantWidth);
     let row = Row { bed: Bed { turn: Some(45.0), ..row.bed }, ..row };
-    let (_, measured) = measure(device(), &row, SMALL);
+    let (_alone, device) = device();
+    let (_, measured) = measure(device, &row, SMALL);
     eprintln!("{}", measured.line(row.name));
     assert!(measured.holds(), "{:?}", measured.spread());
 }
@@ -253,7 +264,8 @@ fn a_checkerboard_dies_out() {
 #[test]
 fn a_fixed_count_does_not_keep_it() {
     let row = Row::new("fixed count of 40", Rule::Fixed(40));
-    let (_, measured) = measure(device(), &row, SMALL);
+    let (_alone, device) = device();
+    let (_, measured) = measure(device, &row, SMALL);
     eprintln!("{}", measured.line(row.name));
     assert!(!measured.holds(), "{:?}", measured.spread());
     for view in 1..TIMES.len() {
@@ -301,7 +313,7 @@ fn table() {
         Row { width: 0.0, ..row("not smoothed", ConstantWidth) },
         Row { width: 0.0, ..full("not smoothed, full resolution, same places", 0.0) },
     ];
-    let mut device = device();
+    let (_alone, mut device) = device();
     eprintln!("{} ({})", device.adapter, device.driver);
     eprintln!("| rule and view | 1× | 2× | 4× | 8× | spread | within 15 % |");
     eprintln!("|---|---|---|---|---|---|---|");
@@ -358,7 +370,7 @@ fn picture() {
     const GAP: u32 = 8;
     let rules = [Rule::Fixed(40), Rule::Source, Rule::ConstantWidth];
     let times = [1.0, 8.0];
-    let mut device = device();
+    let (_alone, mut device) = device();
     let mut all = image::RgbImage::new(0, 0);
     for (column, rule) in rules.into_iter().enumerate() {
         let row = Row { slant: 45.0, ..Row::new("picture", rule) };

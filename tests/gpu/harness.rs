@@ -274,19 +274,32 @@ fn a_leak_fails_the_test() {
     assert!(failed, "a renderer that was not destroyed is a leak");
 }
 
-/// While a test has a device of its own, no other test calls Vulkan: the other one waits until this
-/// thread ends.
+/// While a test has a device of its own, no other test calls Vulkan: the other one waits until the first one's thread
+/// ends, and then goes on.
 #[test]
 fn a_test_with_its_own_device_runs_alone() {
-    let own = Gpu::own();
-    let (tell, told) = mpsc::channel();
-    std::thread::spawn(move || {
-        let _turn = turn::beside();
-        let _ = tell.send(());
+    let (has, owns) = mpsc::channel();
+    let (end, ends) = mpsc::channel::<()>();
+    let first = std::thread::spawn(move || {
+        drop(Gpu::own());
+        let _ = has.send(());
+        let _ = ends.recv();
     });
-    drop(own);
-    let waits = told.recv_timeout(Duration::from_millis(200)).is_err();
-    assert!(waits, "another test ran beside this one");
+    let patient = Duration::from_secs(60);
+    owns.recv_timeout(patient).expect("the first test has a device");
+    let (tell, told) = mpsc::channel();
+    let second = std::thread::spawn(move || {
+        let _ = tell.send("asks");
+        let _turn = turn::beside();
+        let _ = tell.send("runs");
+    });
+    assert_eq!(told.recv_timeout(patient), Ok("asks"));
+    let waits = told.recv_timeout(Duration::from_millis(200));
+    assert_eq!(waits, Err(mpsc::RecvTimeoutError::Timeout), "it ran beside the first one");
+    drop(end);
+    first.join().expect("the first test ends");
+    assert_eq!(told.recv_timeout(patient), Ok("runs"));
+    second.join().expect("the second test ends");
 }
 
 /// Runs in a child process, which the watchdog ends.
@@ -298,7 +311,10 @@ fn the_watchdog_ends_a_test_that_hangs() {
         return;
     }
     let begun = Instant::now();
-    let hung = Command::new(std::env::current_exe().expect("this program"))
+    // It aborts; the shell keeps it from leaving a core dump in the project.
+    let hung = Command::new("sh")
+        .args(["-c", "ulimit -c 0; exec \"$0\" \"$@\""])
+        .arg(std::env::current_exe().expect("this program"))
         .args(["--exact", "harness::the_watchdog_ends_a_test_that_hangs"])
         .envs([("WHITEWATER_HANG", "1"), ("WHITEWATER_WATCHDOG", "1")])
         .output()

@@ -18,8 +18,7 @@ use crate::support::spy::{self, MAKERS};
 const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 16 };
 const NO_MEMORY: vk::Result = vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
 
-/// A device with the spy in its function table. The returned Gpu holds the lock that gives the spy
-/// to one test at a time.
+/// A device with the spy in its function table. The test runs alone until its thread ends (turn.rs).
 fn spied() -> (Gpu, Device) {
     let mut gpu = Gpu::own();
     let functions = spy::functions(&gpu);

@@ -206,8 +206,8 @@ impl Gpu {
         Self::own_with(&DeviceOptions::default())
     }
 
-    /// A device of the test's own, created with these options. The test must not have taken a shared
-    /// device before.
+    /// A device of the test's own, created with these options. The test must not hold a
+    /// shared device.
     pub fn own_with(options: &DeviceOptions) -> Self {
         Shared::all();
         let turn = turn::alone();
@@ -246,7 +246,7 @@ impl Gpu {
         }
     }
 
-    /// Moves the device out of the fixture, for tests with a device of their own. The lock is kept.
+    /// Moves the device out of the fixture, for tests with a device of their own.
     pub fn take_device(&mut self) -> Device {
         match self.device.take() {
             Some(Held::Own(device)) => *device,

@@ -41,7 +41,7 @@ pub fn beside() -> Turn {
 pub fn alone() -> Turn {
     OWN.with_borrow_mut(|own| match own {
         State::None => *own = State::Alone(during()),
-        State::Beside(..) => panic!("a test makes its own devices before it takes a shared one"),
+        State::Beside(..) => panic!("a test that makes its own device must not hold a shared one"),
         State::Alone(_) => {}
     });
     Turn(())

@@ -3,6 +3,7 @@
 mod twin;
 
 use std::ops::Deref;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use whitewater::WhitewaterConfig;
 use whitewater::ash::vk;
@@ -19,11 +20,16 @@ const RADIUS: f32 = 0.3;
 /// Fixed-point steps per unit of thickness, in the grid's sums.
 const STEPS: f64 = 65536.0;
 
-/// A device whose messages fail the test at its end.
-struct Gpu(Option<Device>);
+/// Debian's validation layer can crash if a thread makes a device while another one draws, so tests run one after the
+/// other.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// A device whose messages fail the test at its end, and what keeps other tests from having one.
+struct Gpu(Option<Device>, #[expect(dead_code, reason = "held")] MutexGuard<'static, ()>);
 
 impl Gpu {
     fn new() -> Self {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let make = |validation| Device::new(&DeviceOptions { validation, ..Default::default() });
         let required = std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
         let device = match make(true) {
@@ -33,7 +39,7 @@ impl Gpu {
             }
             made => made,
         };
-        Self(Some(device.expect("a device")))
+        Self(Some(device.expect("a device")), alone)
     }
 }
 

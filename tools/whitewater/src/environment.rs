@@ -246,6 +246,8 @@ impl Panorama {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::{Mutex, MutexGuard, PoisonError};
+
     use glam::Mat4;
     use whitewater::ash::vk;
     use whitewater::headless::scene::{Ground, Material, Mesh, Scene};
@@ -326,12 +328,22 @@ mod tests {
         path
     }
 
-    /// Radiance of a diffuse ground of this albedo, seen from above.
-    fn ground(environment: &Environment, albedo: f32) -> Vec3 {
+    /// Debian's validation layer can crash if a thread makes a device while another one draws, so tests with a device
+    /// run one after the other.
+    static ALONE: Mutex<()> = Mutex::new(());
+
+    /// A device, and what keeps other tests from having one.
+    fn device() -> (MutexGuard<'static, ()>, Device) {
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let validation =
             std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
         let options = DeviceOptions { validation, ..DeviceOptions::default() };
-        let device = Device::new(&options).unwrap();
+        (alone, Device::new(&options).unwrap())
+    }
+
+    /// Radiance of a diffuse ground of this albedo, seen from above.
+    fn ground(environment: &Environment, albedo: f32) -> Vec3 {
+        let (_alone, device) = device();
         let extent = vk::Extent2D { width: 16, height: 16 };
         let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = 64);
         let mut headless = Headless::new(device, &config).unwrap();
@@ -463,10 +475,7 @@ mod tests {
     /// scene, are compared with it texel by texel.
     #[test]
     fn the_sky_is_the_one_that_is_drawn() {
-        let validation =
-            std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
-        let options = DeviceOptions { validation, ..DeviceOptions::default() };
-        let device = Device::new(&options).unwrap();
+        let (_alone, device) = device();
         let extent = vk::Extent2D { width: SIZE, height: SIZE };
         let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = SIZE);
         let mut headless = Headless::new(device, &config).unwrap();
