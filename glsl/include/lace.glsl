@@ -84,19 +84,33 @@ float lace_at(vec3 place, float pixels) {
     return closes;
 }
 
-// World velocity of the foam at a pixel.
+// Sum of the weights in a grid, in fixed-point steps, below which the next coarser grid has a share in the velocity:
+// a quarter of a sprite.
+const float DRIFT_ENOUGH = 0.25 * DRIFT_WHOLE;
+
+// World velocity of the foam at a pixel: that of the finest grid, and where few sprites are near, of coarser ones. It
+// changes without steps, so that the pattern has no seams, and is 0 far from all sprites.
 vec3 drift_at(vec2 pixel) {
-    vec2 at = pixel / DRIFT_CELL;
-    ivec2 base = ivec2(at);
-    vec2 f = at - vec2(base);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
-        ivec2 side = ivec2(i & 1, i >> 1);
-        vec2 part = mix(1.0 - f, f, vec2(side));
-        uint word = drift_word(base + side);
-        sum += part.x * part.y * vec4(drift[word], drift[word + 1u], drift[word + 2u], drift[word + 3u]);
+    vec3 velocity = vec3(0.0);
+    float open = 1.0;
+    DriftGrid grid = finest_drift();
+    for (int k = 0; k < DRIFT_GRIDS && open > 0.0; ++k) {
+        vec2 at = pixel / grid.cell;
+        ivec2 base = ivec2(at);
+        vec2 f = at - vec2(base);
+        vec4 sum = vec4(0.0);
+        for (int i = 0; i < 4; ++i) {
+            ivec2 side = ivec2(i & 1, i >> 1);
+            vec2 part = mix(1.0 - f, f, vec2(side));
+            uint word = drift_word(grid, base + side);
+            sum += part.x * part.y * vec4(drift[word], drift[word + 1u], drift[word + 2u], drift[word + 3u]);
+        }
+        float whole = max(sum.x, DRIFT_ENOUGH);
+        velocity += open * sum.yzw / whole;
+        open *= (whole - sum.x) / whole;
+        grid = coarser(grid);
     }
-    return sum.x > 0.0 ? sum.yzw * (frame.particle.y / (DRIFT_STEPS * sum.x)) : vec3(0.0);
+    return velocity * (frame.particle.y / DRIFT_STEPS);
 }
 
 // Coverage of a pixel by threads, where smooth foam would have the coverage `hidden`. `place` is the pixel's point in

@@ -11,7 +11,7 @@
 #include "pattern.glsl"
 #include "clumps.glsl"
 
-layout(location = 4) flat in vec2 amount;
+layout(location = 4) flat in vec4 amount;
 layout(location = 5) flat in int aside;
 layout(location = 6) flat in uint chance;
 layout(location = 7) flat in vec3 drift;
@@ -60,5 +60,7 @@ void main() {
         float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
         added *= clumps_at(hit, source.xyz, drift, pixel, CLUMP_OCTAVES);
     }
-    optical_depth = floor(added * vec2(1.0, amount.y) * STEPS + rounding_up(chance, pixel)) / STEPS;
+    // A drop mirrors the sun in one small spot: a whole glinting droplet would be a white block.
+    float sun = amount.y * (1.0 + amount.z * thickness_kernel(min(dot(place, place) * amount.w, 1.0)));
+    optical_depth = floor(added * vec2(1.0, sun) * STEPS + rounding_up(chance, pixel)) / STEPS;
 }

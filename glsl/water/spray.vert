@@ -25,7 +25,9 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // divided by its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out vec2 amount; // optical depth at its centre; sunlight: visibility of the sun, and glint
+// Optical depth at the centre; visibility of the sun; light of the glint, relative to sunlight, and the squared ratio of
+// the droplet's radius to the glint's.
+layout(location = 4) flat out vec4 amount;
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
 layout(location = 7) flat out vec3 drift;  // velocity in the world
@@ -42,6 +44,8 @@ const float BALL = 3.0;
 const float FLAT = 3.6;
 // One droplet in this many glints: it mirrors the sun towards the eye.
 const float GLINT_ONE_OF = 32.0;
+// Radius of a glint relative to the droplet's, unless that is narrower than 1.4 pixels.
+const float GLINT_RADIUS = 0.35;
 // First counter of the random numbers that select glinting droplets.
 const uint GLINT = 8192u;
 // First counter of the random numbers by which droplets are left out in thin spray.
@@ -59,6 +63,8 @@ const float ROUND = 1.0e-3;
 const vec2 CROWD = vec2(1.0, 6.0);
 // Number of octaves of the clumps at a droplet. Finer ones would only make single droplets differ.
 const uint DROPLET_OCTAVES = 3u;
+// Min half-axis of a droplet, and of a glint, in pixels.
+const float LEAST = 0.7;
 // Distance at which water is looked up, in drawn radii.
 const float ASIDE = 1.5;
 
@@ -144,7 +150,7 @@ void main() {
         axes = mist_ellipse(shape, 0.5 * frame.spray.w * motion, mat2x3(level, upright), e1);
         e2 = cross(e1, normal);
     }
-    axes = max(axes, vec2(0.7 * pixel));
+    axes = max(axes, vec2(LEAST * pixel));
     float crowd = smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w));
     float thick = mist ? frame.spray_cloud.x * torn * torn * torn * crowd : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
@@ -167,7 +173,9 @@ void main() {
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     bool glints = several && !mist && GLINT_ONE_OF * uniform_of(PLACE, id, GLINT + droplet) < 1.0;
-    amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z) * (glints ? 1.0 + frame.spray_cloud.w : 1.0);
+    amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
+    float radius = clamp(LEAST * pixel / axes.y, GLINT_RADIUS, 1.0);
+    amount.zw = vec2(glints ? frame.spray_cloud.w : 0.0, 1.0 / (radius * radius));
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     along = e1 / axes.x;
     across = e2 / axes.y;

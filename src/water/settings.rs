@@ -551,7 +551,8 @@ pub struct WeberSettings {
     /// tension ([`weber`](Self::weber)), or the factor of a reduced form ([`reduced`](Self::reduced)).
     pub scale: f32,
     /// Weber number at and above which a particle foams, (0, ∞). A value does not transfer between simulations:
-    /// derive it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence.
+    /// derive it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence,
+    /// which the host computes by the formula above.
     pub threshold: f32,
     /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
     pub foam_lifetime: f32,
@@ -842,8 +843,7 @@ pub struct SpraySettings {
     /// each further octave is 1.4 times that of the one before, up to 4. An octave's root mean square is 0.27 of its
     /// amplitude. The coarsest cells are three spacings wide, those of each further octave about half as wide; octaves
     /// with cells narrower than a pixel are left out. The logarithm is limited to 8. The density multiplies the optical
-    /// depth of mist. Below 1 it reduces the number of droplets, above 1 it multiplies their
-    /// optical depth. Particles that are near each other and move alike share the noise. It moves with them and
+    /// depth of mist. A density below 1 leaves out droplets, one above 1 multiplies the droplets' optical depth. Particles that are near each other and move alike share the noise. It moves with them and
     /// restarts as the pattern of foam does ([`SurfaceFoamSettings::pattern_period`], [`SurfaceFoamSettings::time`]).
     /// The coarsest cells are longer along the motion than across it: by twice the length over which
     /// [`stretch`](Self::stretch) spreads the droplets, and up to 4 times as long as wide. Finer cells are less
@@ -880,8 +880,9 @@ pub struct SpraySettings {
     /// direction of the sun, up to a 22nd of the picture's height away, is denser, and brighter where that is
     /// thinner. This shows shadows that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
-    /// Light that a glinting droplet sends to the eye in addition, relative to the sunlight that it scatters,
-    /// [0, 64], default 0. Each droplet glints with a probability of 1/32, fixed by the particle's id. None does if
+    /// Light that the middle of a glinting droplet sends to the eye in addition, relative to the sunlight that it
+    /// scatters, [0, 64], default 0. A glint is 0.35 times as wide as its droplet and at least 1.4 pixels. Each
+    /// droplet glints with a probability of 1/32, fixed by the particle's id. None does if
     /// [`droplets`](Self::droplets) is 1.
     pub glints: f32,
     /// Whether the light of spray is added to the light from behind (the thesis), without dimming it. Default false:

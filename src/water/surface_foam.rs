@@ -288,14 +288,16 @@ enum Path {
     Compute(Box<Splats>),
 }
 
-/// Pixels between the nodes of the velocity grid, and words per node (glsl/include/surface_foam_drift.glsl).
-const DRIFT: [u32; 2] = [16, 4];
+/// Pixels between the nodes of each velocity grid, and words per node (glsl/include/surface_foam_drift.glsl).
+const DRIFT_CELLS: [u32; 3] = [16, 64, 256];
+const DRIFT_WORDS: u64 = 4;
 
-/// The velocity grid for an extent.
+/// The velocity grids for an extent, finest first.
 fn drift(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
-    let [cell, words] = DRIFT;
-    let nodes = |pixels: u32| u64::from(pixels.div_ceil(cell) + 1);
-    let bytes = 4 * u64::from(words) * nodes(config.extent.width) * nodes(config.extent.height);
+    let vk::Extent2D { width, height } = config.extent;
+    let nodes = |cell| [width, height].map(|pixels| u64::from(pixels.div_ceil(cell) + 1));
+    let all = DRIFT_CELLS.map(|cell| nodes(cell).iter().product::<u64>());
+    let bytes = 4 * DRIFT_WORDS * all.iter().sum::<u64>();
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
     Buffer::new(gpu, "water/surface_foam/drift", bytes, usage, MemoryLocation::GpuOnly)
 }
@@ -368,7 +370,7 @@ impl Foam {
         }
     }
 
-    /// Velocity grid, in the state [`DRIFT_READ`] after the pass.
+    /// Velocity grids, in the state [`DRIFT_READ`] after the pass.
     pub fn drift(&self) -> &Buffer {
         &self.drift
     }

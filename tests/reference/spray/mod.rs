@@ -63,6 +63,8 @@ const SPINDLE: u32 = 4096;
 /// Of this many droplets one glints; first of a particle's random numbers for that.
 const GLINT_ONE_OF: f64 = 32.0;
 const GLINT: u32 = 8192;
+/// Radius of a glint relative to the droplet's, where that is at least 1.4 pixels wide.
+const GLINT_RADIUS: f64 = 0.35;
 /// First of a particle's random numbers by which droplets are left out where spray is thin.
 const KEPT: u32 = 12288;
 /// Range of densities over which such a droplet fades.
@@ -284,8 +286,8 @@ struct Droplet {
     amount: Rounded,
     /// Distance in pixels at which water is also looked up; two values if rounding decides.
     aside: [isize; 2],
-    /// Whether it mirrors the sun.
-    glints: bool,
+    /// Squared ratio of its radius to that of its glint, if it mirrors the sun.
+    glint: Option<Rounded>,
     /// Clumps of mist, with the particle's centre and velocity in world space.
     clumps: Option<(Clumps, (Off, Off))>,
     /// Whether the droplet is drawn.
@@ -342,7 +344,11 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(kept, exact(f64::from(k))))
             .and(more(depth, twice))
             .and(more(depth, near));
-        one.glints = many && k > 0 && GLINT_ONE_OF * random(GLINT + k) < 1.0;
+        let glints = many && k > 0 && GLINT_ONE_OF * random(GLINT + k) < 1.0;
+        one.glint = glints.then(|| {
+            let radius = at_least(off(LEAST, 1.0) * pixel / one.ellipse.b, off(GLINT_RADIUS, 1.0));
+            exact(1.0) / (radius * radius)
+        });
         if many && k == 0 {
             let crowd = smoothstep(CROWD.0, CROWD.1, particle.crowd);
             one.amount = share * torn * torn * torn * Rounded { v: crowd, e: 8.0 * U } * one.amount;
@@ -474,7 +480,7 @@ fn droplet(
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, glints: false, clumps: None, drawn }, pixel)
+    (Droplet { ellipse, amount, aside, glint: None, clumps: None, drawn }, pixel)
 }
 
 /// The projection of mist: the covariance `C = h^2 P S^2 P^T + s s^T` in the plane across the view.
@@ -586,6 +592,8 @@ pub fn spray_in_sun(
     let mut lit = Between { low: low.clone(), high: high.clone() };
     let all =
         particles.iter().flat_map(|p| droplets(p, view, settings).into_iter().map(move |d| (p, d)));
+    // Of the kernel: u/2 under the root, 9u for the root, 7 ulp for the exponential, 2u for the products.
+    let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
     for (particle, one) in all {
         let center = one.ellipse.center;
         let p = back.transform_point3(center.v);
@@ -594,8 +602,11 @@ pub fn spray_in_sun(
         let share = sun(particle, p, center.e + 24.0 * U * (p.length() + 2.0 * eye));
         // Three products with a rounded third, and their sum.
         let share = scattered(share * off(1.0, 4.0), settings.scattering);
-        let glint = if one.glints { off(1.0 + settings.glints, 2.0) } else { exact(1.0) };
-        let share = share * glint;
+        // The product under the kernel's root errs by u, the kernel as above, product and sum by u each.
+        let glint = |ratio: f64, by: f64| {
+            let light = settings.glints * kernel((ratio * (1.0 + by * U)).clamp(0.0, 1.0));
+            1.0 + light * (1.0 - by * rounding) - by * 2.0 * U * (1.0 + light)
+        };
         for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
             let hidden = scene_depth(scene.at(x, y));
             let ray = ray_off(view, x, y);
@@ -616,17 +627,20 @@ pub fn spray_in_sun(
             if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
                 *depth.at_mut(x, y) += top.v * kernel(q.v);
             }
-            // u/2 under the root, 9u for the root, 7 ulp for the exponential, 2u for the products.
-            let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
             if one.drawn.surely && hit.sure {
                 let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
                 *low.at_mut(x, y) += settings.sums.in_steps(least * (1.0 - rounding), -1.0);
-                let least = least * (share.v - share.e).max(0.0) * (1.0 - rounding - U);
+                let glint =
+                    one.glint.map_or(1.0, |of| glint((q.v + q.e) * (of.v + of.e), 1.0).max(0.0));
+                let least =
+                    least * (share.v - share.e).max(0.0) * glint * (1.0 - rounding - 2.0 * U);
                 *lit.low.at_mut(x, y) += settings.sums.in_steps(least, -1.0);
             }
             let most = (top.v + top.e) * kernel((q.v - q.e).max(0.0));
             *high.at_mut(x, y) += settings.sums.in_steps(most * (1.0 + rounding), 1.0);
-            let most = most * (share.v + share.e) * (1.0 + rounding + U);
+            let glint =
+                one.glint.map_or(1.0, |of| glint((q.v - q.e).max(0.0) * (of.v - of.e), -1.0));
+            let most = most * (share.v + share.e) * glint * (1.0 + rounding + 2.0 * U);
             *lit.high.at_mut(x, y) += settings.sums.in_steps(most, 1.0);
             *count.at_mut(x, y) += 1;
         }

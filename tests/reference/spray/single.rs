@@ -133,7 +133,7 @@ fn single(
                     let round = off + off.dot(on) * (1.0 / longer - 1.0) * on;
                     let at = finer * (round + block + phase.began as f32);
                     let noise = noise(at.as_dvec3()) as f32;
-                    sum += height * noise - 0.5 * 0.073 * height * height;
+                    sum += height * (noise - height * (0.5 * 0.073 - 1.0e-4 * height * height));
                     finer *= 2.03;
                     amplitude = (1.4 * amplitude).min(4.0);
                     longer = 1.0 + 0.75 * (longer - 1.0);

@@ -71,7 +71,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.size = 0.16;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
-        it.mist = 0.36 * torn;
+        it.mist = 0.33 * torn;
         it.mist_size = 2.4;
         it.clumps = 1.3;
         it.strand_ratio = 6.0;
