@@ -98,7 +98,7 @@ pub fn requirements() -> Requirements {
 pub struct DeviceSupport {
     /// Vulkan version of the device. On an instance of Vulkan 1.0 it is 1.0. An instance of 1.1 or 1.2 limits what the
     /// host may use to its own version, but most loaders do not tell it: pass the version of your instance to
-    /// [`Host::with_enabled`](crate::Host::with_enabled), whatever this field says.
+    /// [`with_enabled`](Self::with_enabled), whatever this field says.
     pub api_version: u32,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
