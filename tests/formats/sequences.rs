@@ -208,8 +208,8 @@ fn errors_say_what_is_there() {
     for (range, told) in [
         ("9-11", "no frame from 9 to 11; the nearest of 4 found are 8 and 12"),
         ("6", "no frame 6; the nearest of 4 found are 5 and 8"),
-        ("0-2", "no frame from 0 to 2; the 4 found are 3 to 12: the first is nearest"),
-        ("13", "no frame 13; the 4 found are 3 to 12: the last is nearest"),
+        ("0-2", "no frame from 0 to 2; the nearest of 4 found is 3"),
+        ("13", "no frame 13; the nearest of 4 found is 12"),
     ] {
         let range = parse_range(range).unwrap();
         let failed = expand(&[folder.input("f_*.bgeo")], Some(range)).unwrap_err();

@@ -71,15 +71,15 @@ pub enum SequenceError {
         /// Expected form.
         expected: String,
     },
-    /// All files lie outside the range.
+    /// No frame is in the range.
     #[error(
         "no frame {}; {}",
         if first == last { first.to_string() } else { format!("from {first} to {last}") },
         match (below, above) {
+            (None, None) => "no frame was found".to_owned(),
             _ if lowest == highest => format!("the only frame found is {lowest}"),
             (Some(a), Some(b)) => format!("the nearest of {count} found are {a} and {b}"),
-            (None, _) => format!("the {count} found are {lowest} to {highest}: the first is nearest"),
-            (_, None) => format!("the {count} found are {lowest} to {highest}: the last is nearest"),
+            (Some(one), None) | (None, Some(one)) => format!("the nearest of {count} found is {one}"),
         }
     )]
     OutsideRange {

@@ -71,7 +71,10 @@ pub enum Command {
     /// Report what particle files hold
     ///
     /// For each frame 'whitewater info' prints the format, the number of particles, bounds, spacing, the meaning of
-    /// each attribute, the up axis, and what is missing for foam.
+    /// each attribute, the up axis, and what is missing for foam. Of attributes that distinguish types of particles it
+    /// prints the values, and which types are at rest while others move: probably walls. Below the frames of a sequence
+    /// it prints a summary: the frame rate and how it was found, the least and the greatest number of particles, and
+    /// the frame whose water is fastest (types at rest do not count). With --json there is no summary.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures
@@ -263,9 +266,10 @@ pub struct DrawArgs {
     /// before the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
-    /// Frames per second at which a film plays [default: the sequence's own, in real time]
+    /// Frames per second at which a film plays [default: real time; 30 for a still]
     ///
-    /// A sequence of 500 frames a second plays 20 times slower than real time at 25.
+    /// At 25, a sequence of 500 frames a second plays 20 times slower than in reality. A still, such as one file with
+    /// --turntable, plays at --fps if that is given.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub film_fps: Option<f32>,
     /// Size in pixels

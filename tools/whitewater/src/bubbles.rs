@@ -15,7 +15,6 @@ use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
 use crate::output;
-use crate::progress::Progress;
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
 use crate::stage;
@@ -426,7 +425,10 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         film: args.fps.unwrap_or(FPS) / args.every.get() as f32,
         fullest: 1,
     };
-    let mut progress = Progress::new(frames.len(), "frames");
+    let (frames, mut progress) = session::unfinished(&args.draw, &checked.0, frames);
+    if frames.is_empty() {
+        return Ok(());
+    }
     let mut session = Session::new(&args.draw, checked, look, progress.steps())?;
     session.frames_without_particles(
         &frames,

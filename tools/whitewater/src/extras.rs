@@ -252,6 +252,18 @@ pub fn at_rest(particles: &Particles, name: &str) -> BTreeSet<i64> {
     if moving.is_empty() { BTreeSet::new() } else { resting.collect() }
 }
 
+/// For each particle whether it has one of the values that [`at_rest`] finds: probably it is part of a wall.
+pub fn walls(particles: &Particles) -> Vec<bool> {
+    let mut walls = vec![false; particles.positions.len()];
+    for (name, _) in phases(particles) {
+        let resting = at_rest(particles, name);
+        let values = find(particles, name).map_or(&[][..], |extra| &extra.values);
+        let each = walls.iter_mut().zip(values);
+        each.for_each(|(wall, value)| *wall |= resting.contains(&(*value as i64)));
+    }
+    walls
+}
+
 /// Messages about attributes that distinguish phases but are used by no `--where` and no `--fluid`, or hold words
 /// instead of numbers, so that all phases are drawn as one water.
 pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {

@@ -297,6 +297,11 @@ impl<F> Target<F> {
         self.sequence || self.name().contains('%')
     }
 
+    /// Whether the file of a frame exists and is not empty.
+    pub fn is_written(&self, frame: u64) -> bool {
+        std::fs::metadata(self.path(frame)).is_ok_and(|file| file.len() > 0)
+    }
+
     /// The file of a frame.
     pub fn path(&self, frame: u64) -> PathBuf {
         let name = self.name();

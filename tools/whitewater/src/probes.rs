@@ -45,7 +45,7 @@ pub fn rate(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
     pairs.take(PAIRS).find_map(apart)
 }
 
-/// The most frequent step between frame numbers.
+/// The median step between frame numbers.
 pub fn step_of(all: &[Frame]) -> f32 {
     let apart: Vec<f32> =
         all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();

@@ -89,6 +89,17 @@ impl Progress {
         self.aside(|| out::note(format_args!("{line}")));
     }
 
+    /// Says that this many frames are not drawn, because they are finished. They do not count as items.
+    pub fn skipped(&self, count: usize) {
+        match count {
+            0 => {}
+            1 => self.say("1 finished frame is skipped (--overwrite draws it again)"),
+            _ => self.say(&format!(
+                "{count} finished frames are skipped (--overwrite draws them again)"
+            )),
+        }
+    }
+
     /// Runs `write`, which prints to the terminal, without the bar in its way.
     pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         match &self.bar {

@@ -19,7 +19,7 @@ use crate::reader::{DEFAULT_FPS, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
 use crate::shore::{self, Shores};
-use crate::turntable::{Turning, stills};
+use crate::turntable::{Turning, stills, stills_fps};
 use crate::upright::{self, Found as Upright};
 use crate::whitewater_source;
 
@@ -55,11 +55,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     // A turntable draws one file as often as an orbit has frames.
     let still = args.turntable.filter(|_| all.len() == 1 && !frames.is_empty());
     let frames = match still {
-        Some(turntable) => stills(&all[0], turntable, args.fps.unwrap_or(DEFAULT_FPS))?,
+        Some(turntable) => stills(&all[0], turntable, stills_fps(args))?,
         None => frames,
     };
     let checked = session::check(&args.draw, all.len() > 1 || still.is_some())?;
-    let numbered = checked.0.iter().all(output::Target::is_numbered);
     let keep = args.write_whitewater.as_deref();
     let keep = keep.map(|file| output::Target::of_particles(file, all.len() > 1)).transpose()?;
     if keep.is_some() && args.whitewater != [Whitewater::Generate] {
@@ -76,7 +75,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let settings = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, None)?;
     let mut camera = CameraFile::from_args(&args.camera)?;
-    let turning = Turning::new(args, &frames);
+    let turning = Turning::new(args, &frames, still.is_some());
     if let Some(camera) = &camera {
         if turning.is_some() {
             camera.clone().turned(Turn { first: 0, frames: 1.0 })?;
@@ -88,20 +87,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         output::probe(&path)?;
     }
     let finished = |frame: &Frame| {
-        let there = |path: std::path::PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
-        numbered
-            && !args.draw.overwrite
-            && checked.0.iter().all(|t| there(t.path(frame.number)))
-            && keep.iter().all(|t| there(t.path(frame.number)))
+        session::is_finished(&args.draw, &checked.0, frame.number)
+            && keep.iter().all(|target| target.is_written(frame.number))
     };
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
     let mut progress = Progress::new(left.len(), "frames");
-    if !done.is_empty() {
-        progress.say(&match done.len() {
-            1 => "1 finished frame is skipped (--overwrite draws it again)".to_owned(),
-            count => format!("{count} finished frames are skipped (--overwrite draws them again)"),
-        });
-    }
+    progress.skipped(done.len());
     if left.is_empty() {
         return Ok(());
     }

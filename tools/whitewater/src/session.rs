@@ -123,6 +123,8 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, V
         args.outputs.iter().map(|o| Target::of_frames(o, sequence)).collect::<Outcome<_>>()?;
     if has_film(&targets) {
         film::check_size(args.size)?;
+    } else if args.film_fps.is_some() {
+        return Err(Failure::usage("--film-fps: expected an output that ends in .mp4, found none"));
     }
     let wanted = layers::wanted(&args.layers)?;
     if let Some(path) = &args.timings {
@@ -132,6 +134,28 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, V
         Times::check(path, true)?;
     }
     Ok((targets, wanted))
+}
+
+/// Whether all pictures of a frame exist and are not to be drawn again. A film is always drawn as a whole.
+pub fn is_finished(args: &DrawArgs, targets: &[Target<Output>], frame: u64) -> bool {
+    let written = |target: &Target<Output>| target.is_numbered() && target.is_written(frame);
+    !args.overwrite && targets.iter().all(written)
+}
+
+/// The frames that are to be drawn of a scene that has no particles, and progress over these. If there are several
+/// frames, the finished ones are skipped.
+pub fn unfinished(
+    args: &DrawArgs,
+    targets: &[Target<Output>],
+    mut frames: Vec<u64>,
+) -> (Vec<u64>, Progress) {
+    let total = frames.len();
+    if total > 1 {
+        frames.retain(|frame| !is_finished(args, targets, *frame));
+    }
+    let progress = Progress::new(frames.len(), "frames");
+    progress.skipped(total - frames.len());
+    (frames, progress)
 }
 
 /// Whether any output is a film.
@@ -291,9 +315,8 @@ impl<'a> Session<'a> {
         number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
     }
 
-    /// Draws the frames of a scene that has no particles. If there are several frames, those whose output files all
-    /// exist are skipped unless `--overwrite` is given. For each drawn frame the progress line shows `word`, then the
-    /// seconds it took.
+    /// Draws frames of a scene that has no particles. For each frame the progress line shows `word`, then the seconds it
+    /// took.
     pub fn frames_without_particles(
         &mut self,
         frames: &[u64],
@@ -303,15 +326,9 @@ impl<'a> Session<'a> {
         let none = Particles::from_positions(Vec::new());
         for &number in frames {
             let began = std::time::Instant::now();
-            let paths = self.paths(number);
-            let there = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
-            if frames.len() > 1 && !self.args.overwrite && paths.iter().all(there) {
-                let line = format!("frame {number}: exists (--overwrite draws it again)");
-                progress.advance(&line);
-                continue;
-            }
             self.frame(number, None, source, &none)?;
-            let paths: Vec<_> = paths.iter().map(|p| p.display().to_string()).collect();
+            let paths: Vec<_> =
+                self.paths(number).iter().map(|p| p.display().to_string()).collect();
             let (seconds, paths) = (began.elapsed().as_secs_f32(), paths.join(" and "));
             progress.advance(&format!("frame {number}: {word}{seconds:.2} s, {paths}"));
         }

@@ -88,7 +88,7 @@ fn info_sums_up_a_sequence() {
     for part in [
         "3 frames, 10 to 14\n  particles   128 to 128\n",
         "rate        50 frames a second (from velocities and positions)",
-        "liveliest   frame 14, with a root mean square speed of 2.121",
+        "liveliest   frame 14, with a root mean square speed of 3.000 in the files' unit of speed",
         "values      type: 1 (64 particles), 7 (64 particles, all at rest: walls?)",
     ] {
         assert!(text.contains(part), "{part}: {text}");
@@ -112,6 +112,25 @@ fn info_goes_on_after_a_bad_file() {
     let value: Value = serde_json::from_str(&run.stdout()).unwrap();
     assert_eq!(value.as_array().unwrap().len(), 2);
     assert!(value[1]["error"].is_string());
+}
+
+/// The summary of a sequence counts the files that can be read, if there are several.
+#[test]
+fn info_sums_up_what_can_be_read() {
+    let folder = Folder::new();
+    folder.particles("a_1.ply", block(2));
+    folder.text("a_2.ply", "ply\n");
+    let one = folder.run("info a_*.ply").fails(1, &["1 of 2", "a_2.ply"]).stdout();
+    assert!(one.contains("particles   8\n") && !one.contains("2 frames"), "{one}");
+    folder.particles("a_3.ply", block(3));
+    let text = folder.run("info a_*.ply").fails(1, &["1 of 3", "a_2.ply"]).stdout();
+    let summary = "3 frames (2 readable), 1 to 3\n  particles   8 to 27\n";
+    assert!(text.contains(summary), "{text}");
+    for bad in ["b_1.ply", "b_2.ply"] {
+        folder.text(bad, "ply\n");
+    }
+    let none = folder.run("info b_*.ply").fails(3, &["2 of 2", "b_1.ply"]).stdout();
+    assert_eq!(none, "");
 }
 
 #[test]

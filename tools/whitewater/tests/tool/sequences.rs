@@ -74,7 +74,31 @@ fn a_film_has_all_frames() {
         .run(&format!("render --bubbles one --frames 0-3 --every 2 -o b.mp4 {SIZE} --fps 12"))
         .ok();
     assert_eq!(folder.film("b.mp4"), (2, 6.0));
+    folder.run(&format!("render --bubbles one --frames 0-3 -o b.mp4 {SIZE} --fps 12")).ok();
+    assert_eq!(folder.film("b.mp4"), (4, 12.0));
     assert_eq!(folder.files().len(), 7, "{:?}", folder.files());
+    // Without a film there is nothing that the rate could set.
+    for command in ["render f_8.ply", "render --bubbles one", "demo"] {
+        folder.run(&format!("{command} -o c.png --film-fps 6")).fails(2, &["--film-fps", ".mp4"]);
+    }
+}
+
+/// Finished frames of scenes without particles are skipped before the others are counted.
+#[test]
+fn a_rerun_without_particles_draws_only_what_is_missing() {
+    let folder = Folder::new();
+    for scene in ["--bubbles one", "--shore pool"] {
+        let command = format!("render {scene} --frames 1-4 -o o_%d.png {SIZE}");
+        folder.run(&format!("{command} --overwrite")).ok();
+        for frame in [3, 4] {
+            std::fs::remove_file(folder.path(&format!("o_{frame}.png"))).unwrap();
+        }
+        let said = folder.run(&command).ok().stderr();
+        assert!(said.contains("2 finished frames are skipped"), "{said}");
+        assert!(said.contains("(1 of 2)") && said.contains("(2 of 2)"), "{said}");
+        let said = folder.run(&command).ok().stderr();
+        assert!(said.contains("4 finished frames") && !said.contains("o_"), "{said}");
+    }
 }
 
 #[test]
@@ -88,7 +112,7 @@ fn parts_of_a_sequence_fit_together() {
     for frame in 8..=11 {
         folder.run(&format!("compare a_{frame}.exr b_{frame}.exr")).ok();
     }
-    folder.run("render f_*.ply -o c.png --frames 3-5").fails(3, &["8 to 11"]);
+    folder.run("render f_*.ply -o c.png --frames 3-5").fails(3, &["nearest of 4 found is 8"]);
     folder.run("render f_*.ply -o c.png --frames 5-3").fails(2, &["5-3"]);
 }
 
@@ -332,6 +356,9 @@ fn a_turntable_goes_round_one_file() {
     // A duration in seconds sets the number of frames.
     folder.run(&format!("render bar_0046.ply {SMALL} --turntable=0.25s --fps 16 -o s.mp4")).ok();
     assert_eq!(folder.film("s.mp4"), (4, 16.0));
+    let seconds = "--turntable=0.5s --fps 16 --film-fps 8";
+    folder.run(&format!("render bar_0046.ply {SMALL} {seconds} -o s.mp4")).ok();
+    assert_eq!(folder.film("s.mp4"), (4, 8.0));
 }
 
 /// A sequence runs while the camera turns; a turn may be longer than the sequence.
