@@ -153,7 +153,7 @@ pub struct EnabledFeatures {
     /// suffices to end the smoothing.
     pub precise_occlusion_queries: bool,
     /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater is drawn in two passes over
-    /// its particles instead of one (`WhitewaterSplat`).
+    /// its particles instead of one.
     pub buffer_int64_atomics: bool,
 }
 
@@ -217,7 +217,7 @@ pub struct Config {
     /// default 8. The first step is a 128th of the picture's height long. Each further step multiplies the distance
     /// from the ray's start by a constant factor (2.2 on a wide picture), so that the last step ends at the picture's
     /// edge. A ray that hits nothing on the screen shows the environment. With 0 steps, as in the thesis, and with
-    /// `Compositing::Source`, water reflects only the environment.
+    /// `Compositing::Source` (feature `diagnostics`), water reflects only the environment.
     pub mirror_steps: u32,
     /// How the view through water that has air behind it, such as a jet or a drop, is computed. Default
     /// [`Exit::TwoInterfaces`]. With [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in
@@ -514,8 +514,8 @@ pub struct Particles {
     /// particles are at rest.
     pub velocities: Option<Stream>,
     /// Ids that identify particles from frame to frame (u32), for the noise in foam and the droplets of spray. Read
-    /// only with [`Config::surface_foam`] or [`Config::spray`], and with `Config.noise` for the surface noise. With
-    /// `None` the index is used.
+    /// only with [`Config::surface_foam`] or [`Config::spray`], and with `Config.noise` (feature `diagnostics`)
+    /// for the surface noise. With `None` the index is used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
@@ -1317,8 +1317,8 @@ impl Settings {
     }
 
     /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of thickness,
-    /// foam, spray and light on foam. It is meant for a configuration with `Rule::Source` as `Config.rule`,
-    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`],
+    /// foam, spray and light on foam. It is meant for a configuration with `Rule::Source` as `Config.rule`
+    /// (both with the feature `diagnostics` only), [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`],
     /// [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
     /// [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {

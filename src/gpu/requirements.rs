@@ -62,11 +62,11 @@ pub fn requirements() -> Requirements {
             },
             Requirement {
                 what: "VK_EXT_conditional_rendering, conditionalRendering",
-                why: "for Smoothing::Query(Gate::Predicate); without it the other gates work",
+                why: "for Smoothing::Query(Gate::Predicate) of the feature diagnostics; without it the other gates work",
             },
             Requirement {
                 what: "drawIndirectCount",
-                why: "for Smoothing::Query(Gate::DrawCount); without it the other gates work",
+                why: "for Smoothing::Query(Gate::DrawCount) of the feature diagnostics; without it the other gates work",
             },
             Requirement {
                 what: "occlusionQueryPrecise",
@@ -78,7 +78,7 @@ pub fn requirements() -> Requirements {
             },
             Requirement {
                 what: "shaderBufferInt64Atomics, shaderInt64",
-                why: "for whitewater in one pass (WhitewaterSplat::Compute64); without them it takes two",
+                why: "for whitewater in one pass over its particles; without them it takes two",
             },
             Requirement {
                 what: "VK_EXT_debug_utils",

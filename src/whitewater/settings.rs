@@ -171,9 +171,9 @@ pub struct WhitewaterSettings {
     /// (AO_SRIncFac). See [`search_radius`](Self::search_radius).
     pub search_radius_step: f32,
     /// Occlusion samples per cubic pixel of the sphere's volume, [0, 16], default 0.5 (AO_SDens). Used by
-    /// `Occlusion::Reference` only: the number of samples of the default `Occlusion::Fast` is the same at any size.
+    /// `Occlusion::Reference` (feature `diagnostics`) only; otherwise the number of samples is the same at any size.
     pub sample_density: f32,
-    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used by `Occlusion::Reference` only.
+    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used as `sample_density` is.
     pub min_samples: u32,
     /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
     pub max_samples: u32,
