@@ -382,7 +382,7 @@ fn frames_in_one_file_and_files_of_one_frame() {
     }
     folder.run(&format!("render all.csv -o c.exr {common} --frames 2")).ok();
     folder.run("compare a_2.exr c.0002.exr").ok();
-    folder.run("render all.csv -o c.exr --frames 7").fails(3, &["0 to 2"]);
+    folder.run("render all.csv -o c.exr --frames 7").fails(3, &["the nearest of 3 found is 2"]);
     let text = folder.run("info all.csv").ok().stdout();
     for part in ["frame       2", "time        0.04", "Time [s] (number x 1): time"] {
         assert!(text.contains(part), "{part}: {text}");
