@@ -2,7 +2,7 @@
 // Pass `light`: sums along the sunlight the thicknesses of water and of foam in scene units (x, y), and the same with
 // each particle's thickness multiplied by its depth along the light (z, w); z / x and w / y are mean depths. The
 // thesis has this thickness for the camera (Sec. 3.2.2, kernel.glsl), but not for the sun.
-// Reads: the discs of sprites.vert. Writes: thickness (RGBA32F), summed.
+// Reads: the discs of thickness.vert. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
 #include "kernel.glsl"

@@ -38,11 +38,10 @@ struct Push {
     density_stride: u32,
     foam_word: u32,
     foam_stride: u32,
-    front: u32,
     packets: u32,
 }
 shader::assert_layout!(
-    shader::LIGHT_SPRITES_VERT,
+    shader::LIGHT_FRONT_VERT,
     "Push",
     Push {
         position_word,
@@ -51,7 +50,19 @@ shader::assert_layout!(
         density_stride,
         foam_word,
         foam_stride,
-        front,
+        packets,
+    }
+);
+shader::assert_layout!(
+    shader::LIGHT_THICKNESS_VERT,
+    "Push",
+    Push {
+        position_word,
+        position_stride,
+        density_word,
+        density_stride,
+        foam_word,
+        foam_stride,
         packets,
     }
 );
@@ -71,14 +82,14 @@ impl Map {
         };
         let desc = map_desc(name, edge, format, vk::ImageUsageFlags::COLOR_ATTACHMENT);
         let target = Target::new(gpu, &desc, vk::AttachmentLoadOp::CLEAR)?;
-        let (fragment, op) = match front {
-            true => (shader::LIGHT_FRONT_FRAG, vk::BlendOp::MIN),
-            false => (shader::LIGHT_THICKNESS_FRAG, vk::BlendOp::ADD),
+        let (vertex, fragment, op) = match front {
+            true => (shader::LIGHT_FRONT_VERT, shader::LIGHT_FRONT_FRAG, vk::BlendOp::MIN),
+            false => (shader::LIGHT_THICKNESS_VERT, shader::LIGHT_THICKNESS_FRAG, vk::BlendOp::ADD),
         };
         let pipeline = Pipeline::graphics(
             gpu,
             &Graphics {
-                vertex: shader::LIGHT_SPRITES_VERT,
+                vertex,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                 pass: target.pass,
@@ -128,7 +139,6 @@ impl Map {
                     density_stride: densities.stride,
                     foam_word: foam.word,
                     foam_stride: foam.stride,
-                    front: u32::from(self.front),
                     packets: u32::from(particles.packets.is_some()),
                 },
             );

@@ -1,5 +1,7 @@
-#version 460
-// Pass `light`: a quad around each particle as seen from the sun, read from the host's streams. Not in the thesis.
+// A quad around each particle as seen from the sun, read from the host's streams, for the vertex shaders of pass
+// `light`. Not in the thesis. FRONT: 1: discs of spheres; 0: discs of thickness sprites, with the thickness that they
+// add. Two shaders instead of a branch, because validation layers warn of outputs that a fragment shader does not
+// read.
 // Reads: positions, densities, foam, members. Writes: the quad's corners; centre, half-axis, depth and thickness of
 // its disc.
 
@@ -21,7 +23,6 @@ layout(push_constant, std430) uniform Push {
     uint density_stride;  // 0: no densities
     uint foam_word;
     uint foam_stride;     // 0: no foam
-    uint front;           // 1: as spheres, 0: as thickness sprites
     uint packets;         // 1: particles in no packet do not count
 } push;
 
@@ -35,8 +36,10 @@ const float SPREAD = 0.6;
 layout(location = 0) flat out vec2 centre; // texels
 layout(location = 1) flat out float depth; // along the light, scene units
 layout(location = 2) flat out float axis;  // half-axis, scene units
+#if FRONT == 0
 layout(location = 3) flat out vec2 amount; // thickness of its water and of its foam
 layout(location = 4) flat out uint chance; // for stochastic rounding
+#endif
 
 void main() {
     uint index = gl_InstanceIndex;
@@ -62,20 +65,22 @@ void main() {
     float torn = torn_of(spray_share);
     float spray = frame.spray_mist.y * spray_share * torn * torn;
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + spray * (1.0 - bulk_share * foam));
-    // The random number for rounding is computed from the particle's position, so it needs no ids and does not depend
-    // on the order of the particles.
-    uvec3 bits = floatBitsToUint(position);
-    chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
     // At least one texel wide, so that it does not fall between texels.
     float wide = mix(frame.particle.z, max(frame.particle.z, SPREAD * frame.spray.z), spray_share);
-    axis = max(push.front == 1u ? radius : wide, texel);
+    axis = max(FRONT == 1 ? radius : wide, texel);
     depth = seen.z;
+#if FRONT == 0
     // As for the camera's thickness sprites, the integral of a sprite over the map is the particle's volume.
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
+    // The random number for rounding is computed from the particle's position, so it needs no ids and does not depend
+    // on the order of the particles.
+    uvec3 bits = floatBitsToUint(position);
+    chance = chance_of(bits.x, chance_of(bits.y, bits.z));
+#endif
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     // The quad is one texel wider than its disc on each side, so that snapping of vertex positions does not cut the
     // disc.
