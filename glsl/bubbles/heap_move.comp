@@ -226,7 +226,10 @@ void main() {
         }
     }
     float dt = push.solid.z;
-    float wet = clamp((push.water.x - own.ball.y + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
+    // Up is against gravity, or along y without gravity.
+    float pulled = length(push.gravity.xyz);
+    float height = pulled > 0.0 ? -dot(own.ball.xyz, push.gravity.xyz) / pulled : own.ball.y;
+    float wet = clamp((push.water.x - height + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
     vec3 pull = push.gravity.xyz * (1.0 - wet / push.water.y);
     vec3 speed = own.drift.xyz + dt * (sum.speed + pull);
     // Drag is stronger in water than in air.

@@ -257,7 +257,8 @@ impl BlobSimulation {
     }
 
     /// Records the initial blobs: the host's, at rest or with velocities (3×f32, scene units per second). `largest`
-    /// is their largest radius, which sizes the grid cells.
+    /// is their largest radius, which sizes the grid cells. It uses other resources of the slot than a step, so it may
+    /// have the slot and the command buffer of the first step.
     ///
     /// # Errors
     /// [`Error::BadInput`], which names the field, before the first command is recorded.

@@ -12,7 +12,8 @@ crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulat
 /// Max number of substeps per step.
 const MOST_SUBSTEPS: u32 = 64;
 
-/// How blobs move. Lengths are in scene units; the defaults are for scene units of one metre.
+/// How blobs move. Lengths are in scene units. Made by `default()`, whose units are metres, then, for other units,
+/// [`in_units`](Self::in_units), then, unless +y is up, [`with_gravity`](Self::with_gravity).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BlobSimulationSettings {
@@ -47,7 +48,7 @@ pub struct BlobSimulationSettings {
     pub solid_damping: f32,
     /// Coefficient of friction on solids, [0, 10], default 0.35.
     pub friction: f32,
-    /// Height of the level water surface that blobs float on, scene units along y, whatever the direction of gravity.
+    /// Height of the level water surface that blobs float on, scene units, measured from the origin against gravity.
     /// Default `None`: no water.
     pub water: Option<f32>,
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
@@ -106,7 +107,8 @@ impl BlobSimulationSettings {
     }
 
     /// These settings with the earth's gravity, for a number of scene units per metre and an up direction of unit
-    /// length.
+    /// length. Only gravity is replaced, so call [`in_units`](Self::in_units) before, which scales the other lengths;
+    /// called after, it would scale gravity again.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
@@ -240,5 +242,11 @@ impl<'a> BlobSimulationStep<'a> {
     /// A step of this many seconds, without solids.
     pub fn new(slot: Slot, dt: f32, settings: &'a BlobSimulationSettings) -> Self {
         Self { slot, dt, settings, solids: &[] }
+    }
+
+    /// The step with these solids, in their state at its end.
+    #[must_use]
+    pub fn with_solids(self, solids: &'a [Solid]) -> Self {
+        Self { solids, ..self }
     }
 }

@@ -250,6 +250,32 @@ fn a_heap_is_the_same_in_other_units() {
     }
 }
 
+/// A blob floats with the part of its height under water that its density asks for, whichever way is up.
+#[test]
+fn blobs_float_at_their_density_whichever_way_is_up() {
+    let gpu = Gpu::shared();
+    for up in [Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::new(0.6, 0.0, 0.8)] {
+        let settings = BlobSimulationSettings::default()
+            .with(|it| (it.water, it.density) = (Some(0.4), 0.25))
+            .with_gravity(1.0, up.to_array());
+        let aside = up.any_orthonormal_vector();
+        let at = 0.9 * up + 0.3 * aside;
+        let ball = [at.x, at.y, at.z, 0.1];
+        let blob = Bubble { ball, turn: [0.0, 0.0, 0.0, 1.0], id: 0 };
+        let mut running = Running::new(&gpu, &[blob], &[], None);
+        for _ in 0..400 {
+            running.step(1.0 / 60.0, &settings, &[]).expect("a step");
+        }
+        let place = running.blobs()[0].place;
+        // A quarter of the diameter of 0.2 is below the water.
+        let height = 0.4 + 0.1 - 0.25 * 0.2;
+        let wide = up.as_dvec3();
+        assert!((place.dot(wide) - height).abs() < 1.0e-3, "up {up}: {place}");
+        let drifted = place.dot(aside.as_dvec3()) - 0.3;
+        assert!(drifted.abs() < 1.0e-3, "up {up}: drifted by {drifted}");
+    }
+}
+
 #[test]
 fn the_order_of_blobs_is_no_matter_to_a_heap() {
     let gpu = Gpu::shared();
