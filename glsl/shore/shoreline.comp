@@ -30,9 +30,9 @@ layout(constant_id = 1) const uint PARTS = 3;
 #include "shore_place.glsl"
 
 // The shore coordinate v (0 at the sea's edge of the foam, 1 at the shore line, 2 inland) without a map: by the
-// distance to the shore that follows from the depth and the slope of the bed at the pixel. If the surface is seen
-// from below, the scene behind it is no bed; v is then 0, far from the shore.
-float v_by_depth(vec2 pixel, vec3 ray, float scene) {
+// horizontal distance from the surface point at depth `z` to the plane of the bed behind it, which is also right for
+// walls. If the surface is seen from below, the scene behind it is no bed; v is then 0, far from the shore.
+float v_by_depth(vec2 pixel, vec3 ray, float z, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
     for (int i = 1; i < 3; ++i) {
@@ -42,10 +42,10 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
             vec2 beside = clamp(pixel + float(k) * to, vec2(0.5), frame.extent.xy - 0.5);
-            float z = scene_of(texelFetch(scene_depth, scene_texel(beside), 0).x);
-            if (z > 0.0 && abs(z - scene) < abs(best - scene) && beside != pixel) {
-                best = z;
-                places[i] = vec3(ray_slope(beside, frame.slope), -1.0) * z;
+            float next = scene_of(texelFetch(scene_depth, scene_texel(beside), 0).x);
+            if (next > 0.0 && abs(next - scene) < abs(best - scene) && beside != pixel) {
+                best = next;
+                places[i] = vec3(ray_slope(beside, frame.slope), -1.0) * next;
             }
         }
         places[i] = best < EMPTY ? places[i] : places[0];
@@ -53,8 +53,9 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 normal = cross(places[1] - places[0], places[2] - places[0]);
     float up = abs(dot(shore.height.xyz, normal));
     float level = sqrt(max(dot(normal, normal) - up * up, 0.0));
-    float below = -dot(shore.height.xyz, places[0]) - shore.height.w;
-    float v = v_of(-max(below, 0.0) * up / max(level, 1.0e-3 * up + 1.0e-20));
+    // Distance of the surface point from the plane, times the normal's length.
+    float off = max(1.0 - z / scene, 0.0) * abs(dot(normal, places[0]));
+    float v = v_of(-off / max(level, 1.0e-3 * up + 1.0e-20));
     return dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
 }
 
@@ -106,7 +107,7 @@ bool shaded_alone(uvec2 texel, bool listed) {
         v = mapped(w, dv);
         if (shore.reach.w > 2.5) {
             float scene = scene_of(device);
-            v = scene > 0.0 ? v_by_depth(pixel, w.ray, scene) : 0.0;
+            v = scene > 0.0 ? v_by_depth(pixel, w.ray, surface_at(pixel, w.ray), scene) : 0.0;
             dv = vec2(0.0);
         }
         v = clamp(v, 0.0, 2.0);

@@ -44,7 +44,7 @@ const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
 
-/// Configuration of a [`ShoreMap`], which determines its memory: 16 bytes per texel.
+/// Configuration of a [`ShoreMap`], which determines its memory: 16 bytes per texel. Made by `default()`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreMapConfig {
@@ -65,8 +65,8 @@ impl Default for ShoreMapConfig {
 pub struct Area {
     /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Centre of the map's area along the two horizontal axes (x and z for y up), scene units. The area is snapped
-    /// to whole texels, so a map that follows a camera keeps its content as long as the camera moves by less than a
+    /// Centre of the map's area along the two horizontal axes ([`axes`](Self::axes): x and z for y up, x and −y for z
+    /// up, y and −z for x up), scene units. The area is snapped to whole texels, so a map that follows a camera keeps its content as long as the camera moves by less than a
     /// texel.
     pub center: [f32; 2],
     /// Side length in scene units, (0, 1e6].
@@ -84,7 +84,7 @@ pub enum Heights<'a> {
     /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
     /// An image of the land's heights along [`Area::up`], in scene units, at the centres of its texels. It covers
-    /// the snapped area ([`Area::corner`]); x runs along the first horizontal axis, y along the second. Its size is
+    /// the snapped area ([`Area::corner`]); x runs along the first horizontal axis ([`Area::axes`]), y along the second. Its size is
     /// arbitrary, and it is only sampled.
     Image(HostImage),
 }
@@ -109,7 +109,7 @@ pub struct ShoreMapStep<'a> {
     /// All of the land, including the parts that have not changed.
     pub heights: Heights<'a>,
     /// Rectangle in which the land has changed since the last step: its minimum and maximum corner along the
-    /// horizontal axes, scene units. Around land that has moved, it encloses the old and the new position. `None`:
+    /// horizontal axes ([`Area::axes`]), scene units. Around land that has moved, it encloses the old and the new position. `None`:
     /// everything is computed again, as it also is if `area` has changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
@@ -132,7 +132,13 @@ impl Area {
         self.edge / size as f32
     }
 
-    /// The minimum corner of a map with this many texels along each axis.
+    /// The two horizontal axes, unit vectors in world space. A point p of the world lies at (p · first, p · second) on
+    /// the map.
+    pub fn axes(&self) -> [[f32; 3]; 2] {
+        level_axes(Vec3::from(self.up)).map(|axis| axis.to_array())
+    }
+
+    /// The minimum corner of a map with this many texels along each axis, along the horizontal axes.
     pub fn corner(&self, size: u32) -> [f32; 2] {
         let texel = f64::from(self.edge) / f64::from(size);
         self.center.map(|c| {

@@ -12,7 +12,7 @@ crate::contract::with!(ShoreConfig, ShoreSettings, ShorelineSettings, ContactSet
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
-/// Configuration of shoreline and contact foam, which determines memory and pipelines.
+/// Configuration of shoreline and contact foam, which determines memory and pipelines. Made by `default()`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreConfig {

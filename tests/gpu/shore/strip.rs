@@ -109,13 +109,15 @@ fn a_strip_s_foam_is_the_twin_s() {
     }
 }
 
-/// With a plane as seabed, the shore line is where it meets the level, wherever on the screen.
+/// With a plane as seabed, the shore line is where it meets the level, wherever on the screen. A steep plane is a wall.
 #[test]
 fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
-    for (lens, tangent) in [(Lens::Standard, 0.25), (Lens::ReversedInfinite, 0.6)] {
+    for (lens, tangent) in
+        [(Lens::Standard, 0.25), (Lens::ReversedInfinite, 0.6), (Lens::Standard, 500.0)]
+    {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.settings.shore = plain();
         let shoreline = Some(Shoreline::Screen);
@@ -152,12 +154,14 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
                 continue;
             }
             let reach = f64::from(shot.settings.shore.shoreline.sea_reach);
-            let far = -bottom.y / tangent / reach;
+            // From the point on the water to the line at which the seabed meets the level.
+            let point = eye + own.depth.value * at(x as u32, y as u32);
+            let far = (point.z - line) / reach;
             // Three depths, each with the rounding of its device depth, over the seabed's length in
-            // a pixel.
-            let wide = behind * view.c_x().min(view.c_y());
-            let v = exact(1.0 - far)
-                .wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
+            // a pixel, turn the seabed's plane, which moves the line at which it meets the level.
+            let turned = 6.0 * off / (behind * view.c_x().min(view.c_y()));
+            let sine = tangent / tangent.hypot(1.0);
+            let v = exact(1.0 - far).wider((turned * -bottom.y / sine + off) / (sine * reach));
             let v = v.clamp(0.0, 2.0);
             let dv = [exact(0.0); 2];
             let (place, across) = (own.place, own.change);
