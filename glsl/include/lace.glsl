@@ -85,13 +85,13 @@ float lace_at(vec3 place, float pixels) {
 }
 
 // Sum of the weights in a grid, in fixed-point steps, below which the next coarser grid has a share in the velocity:
-// a quarter of a sprite.
-const float DRIFT_ENOUGH = 0.25 * DRIFT_WHOLE;
+// a sixteenth of a sprite.
+const float DRIFT_ENOUGH = DRIFT_WHOLE / 16.0;
 
 // World velocity of the foam at a pixel: that of the finest grid, and where few sprites are near, of coarser ones. It
 // changes without steps, so that the pattern has no seams, and is 0 far from all sprites.
 vec3 drift_at(vec2 pixel) {
-    vec3 velocity = vec3(0.0);
+    vec4 all = vec4(0.0);
     float open = 1.0;
     DriftGrid grid = finest_drift();
     for (int k = 0; k < DRIFT_GRIDS && open > 0.0; ++k) {
@@ -106,11 +106,11 @@ vec3 drift_at(vec2 pixel) {
             sum += part.x * part.y * vec4(drift[word], drift[word + 1u], drift[word + 2u], drift[word + 3u]);
         }
         float whole = max(sum.x, DRIFT_ENOUGH);
-        velocity += open * sum.yzw / whole;
+        all += open / whole * sum;
         open *= (whole - sum.x) / whole;
         grid = coarser(grid);
     }
-    return velocity * (frame.particle.y / DRIFT_STEPS);
+    return all.x > 0.0 ? all.yzw / all.x * (frame.particle.y / DRIFT_STEPS) : vec3(0.0);
 }
 
 // Coverage of a pixel by threads, where smooth foam would have the coverage `hidden`. `place` is the pixel's point in

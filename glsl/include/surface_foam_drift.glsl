@@ -1,6 +1,7 @@
 // Velocity of the foam over the screen: grids of nodes, each with the mean world velocity of the sprites near it. A
 // sprite near the eye is wider than the cells of the finest grid, so at its rim no node near may have a velocity; the
-// coarser grids have one there. Values are in fixed-point steps, so that sums are exact in any order. Needs frame.glsl.
+// coarser grids have one there. Values are in fixed-point steps, so that sums are exact in any order as long as no
+// node is full. Needs frame.glsl.
 
 // Distance between the nodes of the finest grid in pixels, number of grids, and ratio of the distances of successive
 // grids.
@@ -12,8 +13,8 @@ const float DRIFT_RATIO = 4.0;
 const float DRIFT_WHOLE = 63.0;
 const float DRIFT_STEPS = 2.0;
 const float DRIFT_MOST = 1023.0;
-// Sum of the weights at a node, in fixed-point steps, from which on no sprite is added to the node, so that sums of
-// weighted velocities fit 32 bits.
+// Sum of the weights at a node, in fixed-point steps, from which on the node is full and no sprite is added to it, so
+// that sums of weighted velocities fit 32 bits: 16,000 whole sprites at one node.
 const int DRIFT_FULL = 1 << 20;
 
 // One of the grids.

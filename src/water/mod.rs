@@ -150,7 +150,7 @@ pub(crate) struct WaterLayers<'a> {
     pub boundaries: Option<&'a Buffer>,
     /// Depth and thickness of the foam, if enabled.
     pub foam: Option<[&'a Image; 2]>,
-    /// The foam's velocity grid, read by compute and fragment shaders.
+    /// The foam's velocity grids, read by compute and fragment shaders.
     pub drift: Option<&'a Buffer>,
     /// Spray, if enabled.
     pub spray: Option<&'a Image>,

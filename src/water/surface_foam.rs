@@ -18,7 +18,7 @@
 //! The compute path saves time in three ways: it has no triangle set-up, which for sprites of few texels costs as
 //! much as their fragments; it rejects a fragment behind the nearest depth by one read; and it sums foam behind the
 //! front layer, of which there usually is none, separately. Both paths sum whole fixed-point steps, so the order does
-//! not matter. The foam's velocity is summed in a coarse grid on the screen; it carries the lace pattern along.
+//! not matter. The foam's velocity is summed in three coarse grids on the screen; it carries the lace pattern along.
 //!
 //! Spray is not foam: as a particle's density falls, its foam fades out and pass `spray` draws droplets instead.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there is
@@ -459,5 +459,24 @@ impl Foam {
             Path::Compute(splats) => splats.words.size,
         };
         (self.depth().size + self.thickness().size, self.sprites.memory() + self.drift.size + words)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::DRIFT_CELLS;
+
+    #[test]
+    fn the_velocity_grids_are_those_of_the_shaders() {
+        let shader = include_str!("../../glsl/include/surface_foam_drift.glsl");
+        let number = |name: &str| {
+            let (_, after) = shader.split_once(&format!("{name} = ")).expect(name);
+            let (number, _) = after.split_once(';').expect(name);
+            number.parse::<f32>().expect(name)
+        };
+        let [cell, ratio] = ["DRIFT_CELL", "DRIFT_RATIO"].map(number);
+        let grids = number("DRIFT_GRIDS") as i32;
+        let cells: Vec<u32> = (0..grids).map(|k| (cell * ratio.powi(k)) as u32).collect();
+        assert_eq!(cells, DRIFT_CELLS);
     }
 }

@@ -5,7 +5,7 @@ use whitewater::Config;
 use whitewater::water::{DebugView, Fresnel, Medium, Shading};
 
 use super::{Foamy, foaming, of};
-use crate::reference::surface_foam::{self, Pattern};
+use crate::reference::surface_foam::{self, Pattern, Phase};
 use crate::reference::{is_surface, smoothstep};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent};
@@ -169,18 +169,8 @@ fn thin_foam_is_torn_into_lace() {
                     let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
                     let back = (-5.0 * front * long * much).exp();
                     let seen = hidden + told * (covered - hidden);
-                    // Rounding of a position: 16u of the number of cells from the origin, and 5u of
-                    // the phase's offset. It is multiplied by the steepest change per cell of the
-                    // function that closes holes: twice 2 r / r^2 of the bubbles, weighted parts
-                    // over widths, and the noise's distortion, 1 + 0.3 27 / 2.6. Threads end with a
-                    // smoothstep, whose slope is at most 1.5 over its width.
-                    let steepest =
-                        5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
                     let origin = to_world.w_axis.truncate().length() / cell;
-                    let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
-                    let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
-                    let closed =
-                        told * (place * steepest + 32.0 * U) * 0.75 / surface_foam::ends(pixels);
+                    let closed = told * closing_error((at, origin), &phases, pixels);
                     for c in 0..3 {
                         let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                         let foam = thick + (thin - thick) * back;
@@ -210,6 +200,124 @@ fn thin_foam_is_torn_into_lace() {
             }
         }
     }
+}
+
+/// Bound of the error of a pixel's coverage by lace, from rounding, at a point in cells of the pattern; `origin`: the
+/// camera's distance from the world's origin, in cells.
+fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
+    // Rounding of a position: 16u of the number of cells from the origin, and 5u of the phase's offset. It is
+    // multiplied by the steepest change per cell of the function that closes holes: twice 2 r / r^2 of the bubbles,
+    // weighted parts over widths, and the noise's distortion, 1 + 0.3 27 / 2.6. Threads end with a smoothstep, whose
+    // slope is at most 1.5 over its width.
+    let steepest = 5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
+    let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
+    let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
+    (place * steepest + 32.0 * U) * 0.75 / surface_foam::ends(pixels)
+}
+
+/// Expected amount of lace in pixels of a picture, from the foam's velocity at each pixel: returns how many were
+/// compared. `foam` gives the velocity in scene units per second, or `None` where it is not compared.
+fn check_lace(
+    name: &str,
+    case: &Foamy,
+    drawn: &Drawn,
+    foam: impl Fn(usize, usize) -> Option<DVec3>,
+) -> usize {
+    let (found, size) = (of(drawn), case.shot.size);
+    let view = case.shot.view(size);
+    let to_world = view.view.inverse();
+    let look = &case.shot.settings.surface_foam;
+    let cell = f64::from(look.lace_size * case.shot.settings.water.spacing);
+    let (tile, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
+    let phases = Pattern { strength: 0.0, size: tile, period, time: look.time }.phases();
+    let (mut compared, mut moved) = (0, 0);
+    for (i, color) in drawn.output.data.iter().enumerate() {
+        let (x, y) = (i % size.width as usize, i / size.width as usize);
+        let z = f64::from(found.depth.data[i]);
+        // A particle with little foam is also drawn as water, in the middle of its foam.
+        let alone = z < 1e9 && drawn.depth.data[i] >= 1e9;
+        let Some(velocity) = foam(x, y).filter(|_| alone) else { continue };
+        let ray = view.ray(x, y);
+        let extinction = f64::from(look.extinction);
+        let hidden =
+            1.0 - (-extinction * f64::from(found.thickness.data[i][0]) * ray.length()).exp();
+        let at = to_world.transform_point3(ray * z) / cell;
+        let pixels = cell / (view.slope_step().x * z).abs();
+        let covered = |velocity: DVec3| {
+            let covered = surface_foam::covered(hidden, at, (velocity / cell, &phases), pixels);
+            hidden + f64::from(look.lace) * smoothstep(2.0, 6.0, pixels) * (covered - hidden)
+        };
+        // Back and front colour are the same, so the pixel tells how much the foam covers.
+        let scene = f64::from(case.shot.color[i][0]);
+        let seen = (f64::from(color[0]) - scene) / (0.9 - scene);
+        let (expected, still) = (covered(velocity), covered(DVec3::ZERO));
+        let origin = to_world.w_axis.truncate().length() / cell;
+        let bound = closing_error((at, origin), &phases, pixels) + 400.0 * U / (0.9 - scene).abs();
+        assert!(
+            (seen - expected).abs() <= bound,
+            "{name} ({x}, {y}): {seen}, not {expected}; at rest it would be {still}"
+        );
+        compared += 1;
+        moved += usize::from((expected - still).abs() > 2.0 * bound);
+    }
+    assert!(5 * moved > compared, "{name}: only {moved} of {compared} pixels tell the velocity");
+    compared
+}
+
+/// Lace moves with the foam at a pixel: faint foam at its own speed, a sprite whose centre lies far outside the picture
+/// where its rim shows, foam of two velocities each with its own, and foam that lies in one place with the mean.
+#[test]
+fn lace_moves_with_the_foam_at_each_pixel() {
+    let gpu = Gpu::shared();
+    let size = extent(640, 400);
+    let mut rig = Rig::lit(&gpu, &whole(size, Shading::Raster), 1);
+    let spacing = Foamy::new(size, Lens::Standard, 0.0).shot.settings.water.spacing;
+    let [one, other] = [[3.0, -1.5, 0.5], [-2.5, 2.0, -1.0]].map(|v| v.map(|v| v * spacing));
+    // Points (x, y, depth), amounts and velocities.
+    type Foam = ([f32; 3], f32, [f32; 3]);
+    let draw = |foam: &[Foam], rig: &mut Rig<'_>| {
+        let mut case = Foamy::new(size, Lens::Standard, 0.0);
+        let points: Vec<_> = foam.iter().map(|(at, _, _)| *at).collect();
+        case.shot.positions = scenes::world(&case.shot.camera, &points);
+        case.amounts = foam.iter().map(|(_, amount, _)| [*amount, 0.0]).collect();
+        case.velocities = foam.iter().map(|(_, _, velocity)| *velocity).collect();
+        case.ids = None;
+        let look = &mut case.shot.settings.surface_foam;
+        (look.noise, look.pattern, look.normal_strength, look.min_thickness) = (0.0, 0.0, 0.0, 0.0);
+        // Faint foam covers as much as other foam.
+        (look.extinction, look.front_extinction) = (8.0 / foam[0].1, 5.0);
+        (look.back_color, look.front_color) = ([0.9; 3], [0.9; 3]);
+        (look.lace, look.lace_size, look.aeration) = (1.0, 1.0, 0.0);
+        // The water around faint foam is as clear as air.
+        case.shot.settings.water.medium =
+            Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+        case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+        let drawn = case.draw(rig);
+        (case, drawn)
+    };
+    let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+
+    for amount in [1.0, 0.3, 0.1] {
+        let (case, drawn) = draw(&[([0.1, -0.2, 3.0], amount, one)], &mut rig);
+        let count = check_lace(&format!("alone {amount}"), &case, &drawn, |_, _| Some(wide(one)));
+        assert!(count > 500, "{count} pixels of {amount}");
+    }
+    // The picture ends 0.577 depths from its middle in x; the nearest node is more than half a coarse cell away.
+    let (case, drawn) = draw(&[([-0.86, 0.1, 0.6], 1.0, one)], &mut rig);
+    let count = check_lace("outside", &case, &drawn, |_, _| Some(wide(one)));
+    assert!(count > 100, "{count} pixels of the sprite outside");
+    // Farther apart than two coarse cells.
+    let apart = [([-2.5, 0.3, 3.0], 0.5, one), ([2.5, -0.3, 3.0], 0.5, other)];
+    let (case, drawn) = draw(&apart, &mut rig);
+    let count =
+        check_lace("apart", &case, &drawn, |x, _| Some(wide(if x < 320 { one } else { other })));
+    assert!(count > 1000, "{count} pixels of two sprites");
+    // Amounts whose weights at a node are whole steps, up to a 63rd.
+    let place = [0.05, 0.1, 4.0];
+    let (case, drawn) = draw(&[(place, 1.0, one), (place, 1.0, other)], &mut rig);
+    let mean = 0.5 * (wide(one) + wide(other));
+    let count = check_lace("mean", &case, &drawn, |_, _| Some(mean));
+    assert!(count > 300, "{count} pixels of the mean");
 }
 
 /// Thickness of the water that lies behind the frontmost foam and before the middle of the visible
