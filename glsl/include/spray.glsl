@@ -9,8 +9,8 @@ struct SpraySprite {
 
 // Half-axes of droplets relative to the mean one: that of the smallest, and that of the largest minus that of the
 // smallest, both before they are divided by the square root of torn_of.
-const float SMALLEST_DROPLET = 0.2;
-const float DROPLET_RANGE = 2.135;
+const float SMALLEST_DROPLET = 0.36;
+const float DROPLET_RANGE = 1.661;
 // Half-axis of the largest droplet relative to the mean one. A particle that is only spray has it, because there
 // torn_of is LEAST_TORN.
 const float LARGEST_DROPLET = (SMALLEST_DROPLET + DROPLET_RANGE) * inversesqrt(LEAST_TORN);

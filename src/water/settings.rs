@@ -806,7 +806,7 @@ pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
     /// Half-axis of a particle's droplet in drawn radii if the particle has only one, (0, 8], default 0.5 as in the
-    /// thesis. Of several droplets each has a random half-axis, 0.2 to 2.3 times this and on average half of it; on a
+    /// thesis. Of several droplets each has a random half-axis, 0.36 to 2 times this and on average 0.6 of it; on a
     /// particle that is only spray they are 1.8 times as large.
     pub size: f32,
     /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has

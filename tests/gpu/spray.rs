@@ -561,8 +561,8 @@ fn large_droplets_reach_into_the_picture() {
     let mean = 3.0 * 0.656 * spacing / (0.6 * 0.513 * 64.0_f32).sqrt();
     let edge = (30.0_f32.to_radians().tan() * 120.0 / 90.0).atan();
     let beside = |i: u16| {
-        // From 2.8 mean half-axes to nearly the largest half-axis, (0.2 + 2.135) / √0.3 = 4.26.
-        let (row, away) = (f32::from(i % 10), 2.8 + 0.1 * f32::from(i / 10));
+        // From 2.5 mean half-axes to nearly the largest half-axis, (0.36 + 1.661) / √0.3 = 3.69.
+        let (row, away) = (f32::from(i % 10), 2.5 + 0.1 * f32::from(i / 10));
         [-depth * edge.tan() - mean * away / edge.cos(), 0.2 * (row - 4.5), depth]
     };
     let points: Vec<_> = (0..120).map(beside).collect();

@@ -55,7 +55,7 @@ const TRIGONOMETRY: f64 = 1.0 / 2048.0;
 /// Mean square of the sizes of many droplets, times the mean fraction that is drawn.
 const SQUARES: f64 = 0.513 * 0.6;
 /// Half-axis of the smallest of many droplets, and how much larger the largest is.
-pub const SIZES: [f64; 2] = [0.2, 2.135];
+pub const SIZES: [f64; 2] = [0.36, 1.661];
 /// Fraction of the droplets and the mist of a particle that is only spray.
 const LEAST_TORN: f64 = 0.3;
 /// First of a particle's random numbers for its spindle.

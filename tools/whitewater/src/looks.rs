@@ -68,12 +68,12 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
         it.droplets = 64;
-        it.size = 0.16;
+        it.size = 0.185;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
-        it.mist = 0.33 * torn;
+        it.mist = 0.3 * torn;
         it.mist_size = 2.4;
-        it.clumps = 1.3;
+        it.clumps = 0.7;
         it.strand_ratio = 6.0;
         it.few_neighbours = [3.5, 9.0];
         it.exposure = 0.001;
@@ -92,7 +92,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.extinction = 0.35 / spacing;
         it.front_extinction = 0.1 / spacing;
         it.min_thickness = 0.1 * spacing;
-        it.normal_strength = 0.35;
+        it.normal_strength = 0.45;
         it.lace = 1.0;
         it.lace_size = 0.8;
         // Accelerating water shears the lace; the longer the period, the farther.
