@@ -288,7 +288,8 @@ pub struct Config {
     /// [`Frame::light_volume`] as seen from the sun: a multiple of 16 from 16 to 4096. The maps take 36 bytes per
     /// texel, in addition to a lit copy of the scene. With [`whitewater`](Self::whitewater) whitewater also casts
     /// shadows on the scene, the water, foam and itself, in the pass `whitewater_light`, which takes 24 more bytes
-    /// per texel. With `None`, the default, there are no shadows or caustics.
+    /// per texel. A texel of half a particle spacing, so 4 · radius / spacing texels a side, shows all that the
+    /// particles resolve. With `None`, the default, there are no shadows or caustics.
     pub light_map_size: Option<u32>,
     /// Whether motion vectors are rendered (default false): the pass `motion` and the layer `motion`, from
     /// [`Frame::previous`] and the particles' velocities. They take 12.5 more bytes per pixel with the default
@@ -779,8 +780,8 @@ pub enum Shoreline {
     Strip(Strip),
     /// Distances in the world, for islands that move or change.
     Map(ShoreDistances),
-    /// An estimate from the depth images: the vertical distance from the water's surface to the ground below, divided
-    /// by the ground's slope, gives the distance to the shore. Shores that are hidden or off the screen have no foam.
+    /// An estimate from the depth images: the horizontal distance from the water's surface to the plane of the ground
+    /// that is seen behind it. Shores that are hidden or off the screen have no foam.
     Screen,
 }
 
@@ -1385,7 +1386,8 @@ impl Light {
 }
 
 /// An intermediate image that `record` leaves for the host, which may read it until the next `record`. The host leaves
-/// it in the layout of `access`, and the next `record` overwrites it: its submission must wait for the host's reads.
+/// it in the layout of `access`, and the next `record` overwrites it. On the same queue a barrier from the host's use
+/// to `access` is enough; on another queue the next submission must wait for the host's reads as well.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {

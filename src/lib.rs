@@ -102,6 +102,8 @@
 //! - The host acquires queue family ownership of its resources beforehand. Its images are single-sampled.
 //!
 //! Up is +y unless [`Settings::up`], and for the environment [`Sky::up`] or [`Equirectangular::up`], say otherwise.
+//! Three more objects have an up direction: a [`Generator`] ([`GeneratorSettings::with_gravity`]), a blob simulation
+//! ([`bubbles::BlobSimulationSettings::with_gravity`]) and a shore map ([`shore::Area::up`]).
 //!
 //! The view may be a part of each image ([`HostImage::rect`]). Several views can then share an image, and the
 //! resolution can change from frame to frame, up to [`Config::extent`], without a resize.

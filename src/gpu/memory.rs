@@ -88,7 +88,7 @@ impl Memory {
 /// and sets it with [`Host::with_allocator`](crate::Host::with_allocator).
 ///
 /// Without an allocator from the host, the context creates a `gpu_allocator` of its own. A host can also hand in an
-/// `Arc` of a `Mutex<gpu_allocator::vulkan::Allocator>`, of the version re-exported as [`crate::gpu_allocator`],
+/// `Arc` of a `Mutex<gpu_allocator::vulkan::Allocator>`, of the version re-exported as `whitewater::gpu_allocator`,
 /// which implements this trait.
 ///
 /// The allocator is called only in construction, `reconfigure`, `resize`, `collect` and `destroy` of what a context
