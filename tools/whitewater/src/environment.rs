@@ -246,15 +246,14 @@ impl Panorama {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::{Mutex, MutexGuard, PoisonError};
-
     use glam::Mat4;
     use whitewater::ash::vk;
     use whitewater::headless::scene::{Ground, Material, Mesh, Scene};
-    use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
+    use whitewater::headless::{Background, COLOR_FORMAT, Headless};
     use whitewater::{Camera, Config, Settings};
 
     use super::*;
+    use crate::testing::device;
 
     // The atmosphere of glsl/include/atmosphere.glsl.
     const EARTH: f32 = 6360.0;
@@ -326,19 +325,6 @@ mod tests {
         let path = folder.join("sky.exr");
         picture::write_exr(&layers, std::fs::File::create(&path).unwrap()).unwrap();
         path
-    }
-
-    /// Debian's validation layer can crash if a thread makes a device while another one draws, so tests with a device
-    /// run one after the other.
-    static ALONE: Mutex<()> = Mutex::new(());
-
-    /// A device, and what keeps other tests from having one.
-    fn device() -> (MutexGuard<'static, ()>, Device) {
-        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-        let validation =
-            std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
-        let options = DeviceOptions { validation, ..DeviceOptions::default() };
-        (alone, Device::new(&options).unwrap())
     }
 
     /// Radiance of a diffuse ground of this albedo, seen from above.

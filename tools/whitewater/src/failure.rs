@@ -171,7 +171,7 @@ pub fn bad_picture(error: Error, file: &str) -> Failure {
 #[cfg(test)]
 mod tests {
     use whitewater::Config;
-    use whitewater::headless::{COLOR_FORMAT, Device, DeviceOptions, Headless};
+    use whitewater::headless::{COLOR_FORMAT, Headless};
 
     use super::*;
 
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn an_environment_too_large_for_the_device_is_named() {
-        let device = Device::new(&DeviceOptions::default()).unwrap();
+        let (_alone, device) = crate::testing::device();
         let extent = vk::Extent2D { width: 16, height: 16 };
         let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = 16);
         let mut headless = Headless::new(device, &config).unwrap();

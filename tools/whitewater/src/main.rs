@@ -45,6 +45,8 @@ mod spray;
 mod stage;
 mod summary;
 mod surface_foam;
+#[cfg(test)]
+mod testing;
 mod timings;
 mod turntable;
 mod upright;

@@ -142,17 +142,15 @@ pub fn is_finished(args: &DrawArgs, targets: &[Target<Output>], frame: u64) -> b
     !args.overwrite && targets.iter().all(written)
 }
 
-/// The frames that are to be drawn of a scene that has no particles, and progress over these. If there are several
-/// frames, the finished ones are skipped.
+/// The frames that are to be drawn of a scene that has no particles, and progress over these. Finished frames are
+/// skipped.
 pub fn unfinished(
     args: &DrawArgs,
     targets: &[Target<Output>],
     mut frames: Vec<u64>,
 ) -> (Vec<u64>, Progress) {
     let total = frames.len();
-    if total > 1 {
-        frames.retain(|frame| !is_finished(args, targets, *frame));
-    }
+    frames.retain(|frame| !is_finished(args, targets, *frame));
     let progress = Progress::new(frames.len(), "frames");
     progress.skipped(total - frames.len());
     (frames, progress)
