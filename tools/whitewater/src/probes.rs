@@ -21,7 +21,7 @@ const PROBES: usize = 16;
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
-    /// Frames per second, from two consecutive frames.
+    /// Frame numbers per second ([`rate`]).
     pub fps: Option<f32>,
     /// Number of the sequence's first frame.
     pub first: u64,
@@ -32,8 +32,17 @@ pub struct Probes {
 /// Number of frame pairs from which the time step is estimated; some may lack the necessary data.
 const PAIRS: usize = 6;
 
+/// Frame numbers per second, and how they were found: from velocities, positions and ids if the files have them, and
+/// else from the frames' times. (Estimated velocities do not count, because they depend on the rate.)
+pub fn rate(reader: &Reader<'_>, all: &[Frame], own: Has) -> Option<(f32, &'static str)> {
+    let by_motion = if own.velocities && own.ids { by_motion(reader, all) } else { None };
+    by_motion
+        .map(|rate| (rate, "from velocities and positions"))
+        .or_else(|| reader.rate().map(|rate| (rate, "from the frames' times")))
+}
+
 /// Frame numbers per second, from the velocities and positions of two consecutive frames in the middle of the sequence.
-pub fn rate(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
+fn by_motion(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
     let apart = |pair: &[Frame]| {
         let [a, b] = pair else { return None };
         let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
@@ -81,9 +90,7 @@ impl Probes {
             }
         }
         let own = reader.seen;
-        // The frame rate is found from velocities in the files, because estimated velocities themselves depend on the
-        // rate.
-        let fps = if own.velocities && own.ids { rate(reader, all) } else { None };
+        let fps = rate(reader, all, own).map(|(rate, _)| rate);
         let first = all.first().map_or(0, |f| f.number);
         Ok(Self { frames, numbers, fps, first, own })
     }

@@ -50,6 +50,8 @@ pub struct Reader<'a> {
     pub radii: Option<[f32; 3]>,
     /// How large particles are split; determined by the first frame that was read.
     split: OnceCell<Option<Split>>,
+    /// Result of [`Reader::rate`].
+    by_time: OnceCell<Option<f32>>,
     /// Frames per second if velocities are estimated, otherwise `None`.
     fps: Option<f32>,
     last: Option<Known>,
@@ -78,6 +80,7 @@ impl<'a> Reader<'a> {
             unsure: OnceCell::new(),
             radii: None,
             split: OnceCell::new(),
+            by_time: OnceCell::new(),
             fps,
             last: None,
             found_velocities: false,
@@ -139,6 +142,10 @@ impl<'a> Reader<'a> {
     /// Frames per second from the times stored in the first two files, or from times in their names, unless those are
     /// step numbers.
     pub fn rate(&self) -> Option<f32> {
+        *self.by_time.get_or_init(|| self.find_rate())
+    }
+
+    fn find_rate(&self) -> Option<f32> {
         let [a, b, ..] = self.all else { return None };
         let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
         let seconds = (second? - first?) as f32;

@@ -136,7 +136,6 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
-    probes.fps = probes.fps.or(by_time);
     let found = upright::find(&probes.frames);
     let particles = probes.frames.iter().any(|frame| frame.positions.len() > 1);
     // A user who gives a camera knows the up axis.

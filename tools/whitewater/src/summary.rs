@@ -55,13 +55,7 @@ impl Summary {
         let placing = Placing { up: Up::Y, scale: 1.0, origin: [0.0; 3] };
         let fluids = Fluids::default();
         let reader = Reader::new(all, placing, (&[], &fluids), None);
-        let moving = self.own.velocities && self.own.ids;
-        let by_motion = if moving { probes::rate(&reader, all) } else { None };
-        // Frame numbers per second.
-        let found = match by_motion {
-            Some(rate) => Some((rate, "from velocities and positions")),
-            None => reader.rate().map(|rate| (rate, "from the frames' times")),
-        };
+        let found = probes::rate(&reader, all, self.own);
         let found = found.map(|(rate, how)| (rate / probes::step_of(all), how));
         let (rate, how) = found.unwrap_or((DEFAULT_FPS, "assumed; --fps of render sets it"));
         let rate = round(rate);
