@@ -92,7 +92,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.extinction = 0.35 / spacing;
         it.front_extinction = 0.1 / spacing;
         it.min_thickness = 0.1 * spacing;
-        it.normal_strength = 0.45;
+        it.normal_strength = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
         // Accelerating water shears the lace; the longer the period, the farther.
