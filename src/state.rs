@@ -55,7 +55,8 @@ pub struct SurfaceFoamState {
 
 impl SurfaceFoamState {
     /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for the phase
-    /// between water and foam, and 8 for foam amount and age.
+    /// between water and foam, and 8 for foam amount and age. It starts without foam; the first step needs no
+    /// [`record_reset`](Self::record_reset).
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.

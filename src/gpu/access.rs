@@ -47,22 +47,22 @@ impl Access {
     }
 }
 
-/// Compute shader: sampled image.
+/// Compute shader: sampled image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 pub const COMPUTE_SAMPLED: Access =
     Access::new(Stage::COMPUTE_SHADER, Mask::SHADER_SAMPLED_READ, Layout::SHADER_READ_ONLY_OPTIMAL);
-/// Fragment shader: sampled image.
+/// Fragment shader: sampled image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 pub const FRAGMENT_SAMPLED: Access = Access::new(
     Stage::FRAGMENT_SHADER,
     Mask::SHADER_SAMPLED_READ,
     Layout::SHADER_READ_ONLY_OPTIMAL,
 );
-/// Compute shader: storage image or buffer, read.
+/// Compute shader: storage image (layout `GENERAL`) or buffer, read.
 pub const COMPUTE_READ: Access =
     Access::new(Stage::COMPUTE_SHADER, Mask::SHADER_STORAGE_READ, Layout::GENERAL);
-/// Compute shader: storage image or buffer, written.
+/// Compute shader: storage image (layout `GENERAL`) or buffer, written.
 pub const COMPUTE_WRITE: Access =
     Access::new(Stage::COMPUTE_SHADER, Mask::SHADER_STORAGE_WRITE, Layout::GENERAL);
-/// Compute shader: storage image or buffer, read and written (atomics).
+/// Compute shader: storage image (layout `GENERAL`) or buffer, read and written (atomics).
 pub const COMPUTE_READ_WRITE: Access = COMPUTE_READ.and(COMPUTE_WRITE);
 /// Vertex shader: storage buffer, read.
 pub const VERTEX_READ: Access =
@@ -77,7 +77,7 @@ pub const UNIFORM: Access = Access::new(
     Mask::UNIFORM_READ,
     Layout::GENERAL,
 );
-/// Vertex shader: sampled image.
+/// Vertex shader: sampled image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 pub const VERTEX_SAMPLED: Access =
     Access::new(Stage::VERTEX_SHADER, Mask::SHADER_SAMPLED_READ, Layout::SHADER_READ_ONLY_OPTIMAL);
 /// Fragment shader: storage buffer, read.
@@ -99,13 +99,15 @@ pub const PREDICATE: Access = Access::new(
     Mask::CONDITIONAL_RENDERING_READ_EXT,
     Layout::GENERAL,
 );
-/// Colour attachment, read (load, blend) and written.
+/// Colour attachment, read (load, blend) and written: stage `COLOR_ATTACHMENT_OUTPUT`, layout
+/// `COLOR_ATTACHMENT_OPTIMAL`.
 pub const COLOR_ATTACHMENT: Access = Access::new(
     Stage::COLOR_ATTACHMENT_OUTPUT,
     Mask::from_raw(Mask::COLOR_ATTACHMENT_READ.as_raw() | Mask::COLOR_ATTACHMENT_WRITE.as_raw()),
     Layout::COLOR_ATTACHMENT_OPTIMAL,
 );
-/// Depth attachment, tested and written.
+/// Depth attachment, tested and written: stages `EARLY_FRAGMENT_TESTS` and `LATE_FRAGMENT_TESTS`, layout
+/// `DEPTH_STENCIL_ATTACHMENT_OPTIMAL`.
 pub const DEPTH_ATTACHMENT: Access = Access::new(
     Stage::from_raw(Stage::EARLY_FRAGMENT_TESTS.as_raw() | Stage::LATE_FRAGMENT_TESTS.as_raw()),
     Mask::from_raw(
@@ -114,14 +116,14 @@ pub const DEPTH_ATTACHMENT: Access = Access::new(
     ),
     Layout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
-/// Written by a clear or fill. The stage is ALL_TRANSFER and not CLEAR, because validation layers before 1.3.240
+/// Written by a clear or fill, in the layout `TRANSFER_DST_OPTIMAL`. The stage is ALL_TRANSFER and not CLEAR, because validation layers before 1.3.240
 /// treat a fill as a copy.
 pub const CLEAR: Access =
     Access::new(Stage::ALL_TRANSFER, Mask::TRANSFER_WRITE, Layout::TRANSFER_DST_OPTIMAL);
-/// Source of a copy or blit.
+/// Source of a copy or blit: stage `ALL_TRANSFER`, layout `TRANSFER_SRC_OPTIMAL`.
 pub const COPY_READ: Access =
     Access::new(Stage::ALL_TRANSFER, Mask::TRANSFER_READ, Layout::TRANSFER_SRC_OPTIMAL);
-/// Destination of a copy or blit.
+/// Destination of a copy or blit: stage `ALL_TRANSFER`, layout `TRANSFER_DST_OPTIMAL`.
 pub const COPY_WRITE: Access = CLEAR;
 /// No previous use: the contents are undefined.
 pub const NOTHING: Access = Access::new(Stage::NONE, Mask::NONE, Layout::UNDEFINED);

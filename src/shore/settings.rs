@@ -154,7 +154,8 @@ pub struct ShorelineSettings {
     /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12. It converts a distance from
     /// the shore to v; it has no effect on a strip, whose vertices give v themselves.
     pub sea_reach: f32,
-    /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3.
+    /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3. Land that rises above the water's
+    /// surface hides it, except as far as `bias` of [`Shore`](crate::Shore) lets the surface show through.
     pub land_reach: f32,
     /// Wave frequency in radians per unit of v, [0, 1000], default 13: two waves between the foam's seaward edge and
     /// the shore line.

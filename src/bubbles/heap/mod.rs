@@ -455,9 +455,10 @@ impl BlobSimulation {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
 
-    /// Number of entries in the streams of [`blobs`](Self::blobs): the maximum number of blobs, including the halves
-    /// of split ones. `max_blobs` of `Config::bubbles` has to be at least as large. The spheres of unused entries are
-    /// all zeros.
+    /// Number of entries in the streams of [`blobs`](Self::blobs): 0 before [`record_set`](Self::record_set), then the
+    /// number of blobs that it was given, times two for each of [`BlobSimulationConfig::max_splits`]. The spheres of
+    /// entries that no half of a split blob uses yet are all zeros. `max_blobs` of `Config::bubbles` has to be at
+    /// least as large; [`BlobSimulationConfig::max_blobs`] times two for each split always is.
     pub fn count(&self) -> u32 {
         self.count << self.config.max_splits
     }

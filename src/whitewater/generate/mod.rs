@@ -50,6 +50,7 @@ pub struct Generator {
 
 impl Generator {
     /// Creates pipelines and allocates memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
+    /// It starts without whitewater; the first step needs no [`record_reset`](Self::record_reset).
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
