@@ -265,6 +265,8 @@ fn nothing_is_not_at_the_far_plane() {
             it.particle_depth = particles.0;
             it.particle_opacity = particles.1;
         }));
+        // As wide as the water in front of the wall below.
+        shot.settings.shore.shoreline.sea_reach = 90.0;
         let level = water(&shot, DVec3::Y, 0.0);
         let before = (0..96 * 64)
             .map(|i| level.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]).depth.value)
