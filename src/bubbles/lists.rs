@@ -48,16 +48,11 @@ pub struct Places {
     id_word: u32,
     id_stride: u32,
 }
-macro_rules! assert_places {
-    ($($shader:ident),+) => {
-        $(shader::assert_layout!(
-            shader::$shader,
-            "Push",
-            Places { ball_word, ball_stride, turn_word, turn_stride, id_word, id_stride }
-        );)+
-    };
-}
-assert_places!(BUBBLES_BLOBS_COMP, BUBBLES_HEAP_SET_COMP);
+shader::assert_layout!(
+    [shader::BUBBLES_BLOBS_COMP, shader::BUBBLES_HEAP_SET_COMP],
+    "Push",
+    Places { ball_word, ball_stride, turn_word, turn_stride, id_word, id_stride }
+);
 
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]

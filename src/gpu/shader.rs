@@ -57,8 +57,11 @@ impl Shader {
 }
 
 /// Asserts at compile time that the listed members of a `repr(C)` struct have the offsets that they have in the
-/// shader's block.
+/// block of the shader, or of each shader of a list.
 macro_rules! assert_layout {
+    ([$($shader:expr),+ $(,)?], $block:literal, $type:ident $members:tt) => {
+        $($crate::gpu::shader::assert_layout!($shader, $block, $type $members);)+
+    };
     ($shader:expr, $block:literal, $type:ty { $($member:ident),+ $(,)? }) => {
         $(const _: () = assert!(
             std::mem::offset_of!($type, $member) == $shader.offset($block, stringify!($member)),

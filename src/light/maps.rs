@@ -41,20 +41,7 @@ struct Push {
     packets: u32,
 }
 shader::assert_layout!(
-    shader::LIGHT_FRONT_VERT,
-    "Push",
-    Push {
-        position_word,
-        position_stride,
-        density_word,
-        density_stride,
-        foam_word,
-        foam_stride,
-        packets,
-    }
-);
-shader::assert_layout!(
-    shader::LIGHT_THICKNESS_VERT,
+    [shader::LIGHT_FRONT_VERT, shader::LIGHT_THICKNESS_VERT],
     "Push",
     Push {
         position_word,

@@ -38,34 +38,29 @@ pub struct Places {
     chunk_first: u32,
     chunk: u32,
 }
-macro_rules! assert_places {
-    ($($shader:ident),+ $(,)?) => {
-        $(shader::assert_layout!(
-            shader::$shader,
-            "Push",
-            Places {
-                position_word,
-                position_stride,
-                kind_word,
-                kind_stride,
-                radius_word,
-                radius_stride,
-                age_word,
-                age_stride,
-                id_word,
-                id_stride,
-                chunk_first,
-                chunk,
-            }
-        );)+
-    };
-}
-assert_places!(
-    WHITEWATER_SPLAT_COMP,
-    WHITEWATER_SPLAT64_COMP,
-    WHITEWATER_SPLAT_VERT,
-    LIGHT_WHITEWATER_COMP,
-    BUBBLES_NEAR_COMP,
+shader::assert_layout!(
+    [
+        shader::WHITEWATER_SPLAT_COMP,
+        shader::WHITEWATER_SPLAT64_COMP,
+        shader::WHITEWATER_SPLAT_VERT,
+        shader::LIGHT_WHITEWATER_COMP,
+        shader::BUBBLES_NEAR_COMP,
+    ],
+    "Push",
+    Places {
+        position_word,
+        position_stride,
+        kind_word,
+        kind_stride,
+        radius_word,
+        radius_stride,
+        age_word,
+        age_stride,
+        id_word,
+        id_stride,
+        chunk_first,
+        chunk,
+    }
 );
 
 /// Number of particles in each chunk (glsl/include/whitewater_chunks.glsl).
