@@ -429,9 +429,9 @@ pub struct Stream {
     pub size: u64,
     /// Byte offset of the first particle's value, a multiple of 4.
     pub offset: u64,
-    /// Bytes from one particle's value to the next, a multiple of 4, at most the `max_stride` of the configuration of
-    /// the object that reads it ([`Config::max_stride`] and its kind). Vertices and indices ([`Triangles`]) may have
-    /// any stride with which the device can bind the whole stream.
+    /// Bytes from one particle's value to the next, a multiple of 4. The maximum for a renderer is
+    /// [`Config::max_stride`]; other objects have a `max_stride` in their own configuration. Vertices and indices
+    /// ([`Triangles`]) have no such maximum, but the device must be able to bind the whole stream.
     pub stride: u32,
 }
 

@@ -1,7 +1,7 @@
 // Velocity of the foam over the screen: grids of nodes, each with the mean world velocity of the sprites near it. A
 // sprite near the eye is wider than the cells of the finest grid, so at its rim no node near may have a velocity; the
-// coarser grids have one there. Values are in fixed-point steps, so that sums are exact in any order as long as no
-// node is full. Needs frame.glsl.
+// coarser grids have one there. Values are in fixed-point steps: sums are exact, whatever the order, unless a node is
+// full. Needs frame.glsl.
 
 // Distance between the nodes of the finest grid in pixels, number of grids, and ratio of the distances of successive
 // grids.

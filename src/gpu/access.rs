@@ -116,8 +116,8 @@ pub const DEPTH_ATTACHMENT: Access = Access::new(
     ),
     Layout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
-/// Written by a clear or fill, in the layout `TRANSFER_DST_OPTIMAL`. The stage is ALL_TRANSFER and not CLEAR, because validation layers before 1.3.240
-/// treat a fill as a copy.
+/// Written by a clear or fill, in the layout `TRANSFER_DST_OPTIMAL`. The stage is ALL_TRANSFER and not CLEAR, because
+/// validation layers before 1.3.240 treat a fill as a copy.
 pub const CLEAR: Access =
     Access::new(Stage::ALL_TRANSFER, Mask::TRANSFER_WRITE, Layout::TRANSFER_DST_OPTIMAL);
 /// Source of a copy or blit: stage `ALL_TRANSFER`, layout `TRANSFER_SRC_OPTIMAL`.

@@ -65,9 +65,9 @@ impl Default for ShoreMapConfig {
 pub struct Area {
     /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Centre of the map's area along the two horizontal axes ([`axes`](Self::axes): x and z for y up, x and −y for z
-    /// up, y and −z for x up), scene units. The area is snapped to whole texels, so a map that follows a camera keeps its content as long as the camera moves by less than a
-    /// texel.
+    /// Centre of the map's area along the two horizontal [`axes`](Self::axes), scene units. The axes are x and z for y
+    /// up, x and −y for z up, y and −z for x up. The area is snapped to whole texels, so a map that follows a camera
+    /// keeps its content as long as the camera moves by less than a texel.
     pub center: [f32; 2],
     /// Side length in scene units, (0, 1e6].
     pub edge: f32,
@@ -682,4 +682,18 @@ struct Drawn<'a> {
 fn buffers_of(mesh: &MapMesh) -> impl Iterator<Item = vk::Buffer> {
     let indices = mesh.triangles.indices.map(|(stream, _)| stream.buffer);
     [mesh.triangles.positions.buffer].into_iter().chain(indices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Area;
+
+    #[test]
+    fn the_horizontal_axes_are_the_documented_ones() {
+        let axes = |up| Area { up, center: [0.0; 2], edge: 1.0, level: 0.0, reach: 1.0 }.axes();
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_eq!(axes(y), [x, z]);
+        assert_eq!(axes(z), [x, [0.0, -1.0, 0.0]]);
+        assert_eq!(axes(x), [y, [0.0, 0.0, -1.0]]);
+    }
 }
