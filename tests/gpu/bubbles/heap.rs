@@ -82,7 +82,7 @@ impl Running {
         solids: &[Solid],
     ) -> Result<(), Error> {
         let heap = self.heap.as_mut().expect("only drop takes it");
-        let step = BlobSimulationStep::new(Slot(0), dt, settings).with(|it| it.solids = solids);
+        let step = BlobSimulationStep::new(Slot(0), dt, settings).with_solids(solids);
         // SAFETY: submitted at once.
         self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
     }
@@ -428,8 +428,7 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     let gpu = Gpu::shared();
     let blobs = cloud(70, [0.8, 1.0, 0.8], [0.05, 0.2], 3);
     let settings = BlobSimulationSettings::default();
-    let step =
-        BlobSimulationStep::new(Slot(0), 1.0 / 60.0, &settings).with(|it| it.solids = &[FLOOR]);
+    let step = BlobSimulationStep::new(Slot(0), 1.0 / 60.0, &settings).with_solids(&[FLOOR]);
     let mut apart = Running::new(&gpu, &blobs, &[], None);
     apart.step(step.dt, step.settings, step.solids).expect("a step");
     let at_once = Running::stepped(&gpu, (&blobs, &[]), None, 0, Some(&step));

@@ -205,10 +205,10 @@ fn thin_foam_is_torn_into_lace() {
 /// Bound of the error of a pixel's coverage by lace, from rounding, at a point in cells of the pattern; `origin`: the
 /// camera's distance from the world's origin, in cells.
 fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
-    // Rounding of a position: 16u of the number of cells from the origin, and 5u of the phase's offset. It is
-    // multiplied by the steepest change per cell of the function that closes holes: twice 2 r / r^2 of the bubbles,
-    // weighted parts over widths, and the noise's distortion, 1 + 0.3 27 / 2.6. Threads end with a smoothstep, whose
-    // slope is at most 1.5 over its width.
+    // A position errs by 16u of its distance from the origin in cells, and by 5u of the phase's offset. `closes`
+    // changes per cell by at most `steepest`: 2 * 2 r / r^2 for the bubbles, times their weights over their widths,
+    // times the distortion by the noise, 1 + 0.3 * 27 / 2.6. The smoothstep at the end of a thread has a slope of at
+    // most 1.5 divided by its width.
     let steepest = 5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
     let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
     let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
@@ -312,10 +312,12 @@ fn lace_moves_with_the_foam_at_each_pixel() {
     let count =
         check_lace("apart", &case, &drawn, |x, _| Some(wide(if x < 320 { one } else { other })));
     assert!(count > 1000, "{count} pixels of two sprites");
-    // Amounts whose weights at a node are whole steps, up to a 63rd.
-    let place = [0.05, 0.1, 4.0];
-    let (case, drawn) = draw(&[(place, 1.0, one), (place, 1.0, other)], &mut rig);
-    let mean = 0.5 * (wide(one) + wide(other));
+    // Exactly at a node of the two finer grids, so that the weights are whole steps: 63 and 21. The sprites are too
+    // narrow for the coarsest grid. The node is at pixel (320, 192), eight above the middle of the picture.
+    let step = Foamy::new(size, Lens::Standard, 0.0).shot.view(size).slope_step().y.abs() as f32;
+    let place = [0.0, 8.0 * step * 10.0, 10.0];
+    let (case, drawn) = draw(&[(place, 1.0, one), (place, 1.0 / 3.0, other)], &mut rig);
+    let mean = 0.75 * wide(one) + 0.25 * wide(other);
     let count = check_lace("mean", &case, &drawn, |_, _| Some(mean));
     assert!(count > 300, "{count} pixels of the mean");
 }
