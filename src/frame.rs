@@ -60,6 +60,7 @@ pub struct FrameUniforms {
     pub spray_color: [f32; 4],
     pub spray_cloud: [f32; 4],
     pub spray_mist: [f32; 4],
+    pub spray_near: [f32; 4],
     pub shadow: [[f32; 4]; 4],
     pub to_light: [[f32; 4]; 4],
     pub shadow_map: [f32; 4],
@@ -138,6 +139,7 @@ shader::assert_layout!(
         spray_color,
         spray_cloud,
         spray_mist,
+        spray_near,
         shadow,
         to_light,
         shadow_map,
@@ -422,6 +424,7 @@ impl FrameUniforms {
             spray_color: spray_color(&frame.settings.spray, light),
             spray_cloud: spray_cloud(&frame.settings.spray, water),
             spray_mist: spray_mist(&frame.settings.spray),
+            spray_near: [frame.settings.spray.max_angle, 0.0, 0.0, 0.0],
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.clip() * to_world)
                 .to_cols_array_2d(),

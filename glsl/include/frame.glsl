@@ -41,6 +41,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 spray_color;   // radiance; w: 1 = added
     vec4 spray_cloud;   // optical depth and half-axis of mist; seconds that droplets are spread over; sunlight of a glint
     vec4 spray_mist;    // amplitude of the clumps; extinction for sunlight over foam's; scattering; relief
+    vec4 spray_near;    // max half-axis of a droplet over its depth
     mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth
     mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, distance along the light in scene units
     vec4 shadow_map;    // bias in scene units; 1, or -1 where depth is reversed

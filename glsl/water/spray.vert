@@ -144,6 +144,7 @@ void main() {
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
+    still = several && !mist ? min(still, frame.spray_near.x * depth) : still;
     vec2 axes = vec2(still + 0.5 * speed * frame.spray.w, still);
     vec3 upright = cross(level, normal);
     if (mist) {

@@ -809,6 +809,10 @@ pub struct SpraySettings {
     /// thesis. Of several droplets each has a random half-axis, 0.36 to 2 times this and on average 0.6 of it; on a
     /// particle that is only spray they are 1.8 times as large.
     pub size: f32,
+    /// Maximum half-axis of one of several droplets relative to its distance from the camera plane, (0, 1], default 1:
+    /// no limit, because droplets that near are not drawn. A smaller value keeps droplets of particles that fly past
+    /// the eye from being seen as balls.
+    pub max_angle: f32,
     /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has
     /// a random fraction of them, between a fifth and all, chosen by its id. A particle that is more than three
     /// quarters spray has fewer and larger droplets, because torn water is many fine drops and an isolated particle a
@@ -895,6 +899,7 @@ impl Default for SpraySettings {
         Self {
             opacity: 0.5,
             size: 0.5,
+            max_angle: 1.0,
             droplets: 16,
             all_spray_density: 0.6,
             full_water_density: 0.7,
@@ -922,6 +927,7 @@ impl SpraySettings {
     pub const SOURCE: Self = Self {
         opacity: 0.4,
         size: 0.5,
+        max_angle: 1.0,
         droplets: 1,
         all_spray_density: 0.35,
         full_water_density: 0.45,
@@ -946,6 +952,7 @@ impl SpraySettings {
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
         range("Settings.spray.opacity", self.opacity, 0.0, 1.0 - f32::EPSILON)?;
         range("Settings.spray.size", self.size, 1.0e-6, 8.0)?;
+        range("Settings.spray.max_angle", self.max_angle, 1.0e-6, 1.0)?;
         range("Settings.spray.droplets", self.droplets as f32, 1.0, 64.0)?;
         let all = self.all_spray_density;
         range("Settings.spray.all_spray_density", all, 0.0, f32::MAX)?;

@@ -102,7 +102,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 66] = [
+    let changes: [Change; 67] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -149,6 +149,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("surface_foam.front_color", |s| s.surface_foam.front_color = [0.5; 3]),
         ("spray.opacity", |s| s.spray.opacity = 0.8),
         ("spray.size", |s| s.spray.size = 1.0),
+        ("spray.max_angle", |s| s.spray.max_angle = 1.0e-3),
         ("spray.droplets", |s| s.spray.droplets = 9),
         ("spray.all_spray_density", |s| s.spray.all_spray_density = 0.5),
         ("spray.full_water_density", |s| s.spray.full_water_density = 0.8),

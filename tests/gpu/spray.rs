@@ -120,6 +120,7 @@ impl Sprayed {
             rest_density: f64::from(water.rest_density),
             opacity: f64::from(look.opacity),
             size: f64::from(look.size),
+            max_angle: f64::from(look.max_angle),
             droplets: look.droplets,
             spread: f64::from(look.scatter_radius),
             stretch: f64::from(look.stretch),
@@ -573,6 +574,29 @@ fn large_droplets_reach_into_the_picture() {
     let drawn = case.draw(&mut rig);
     let (_, covered) = case.check("spray-beside", &drawn);
     assert!(covered > 100, "{covered} pixels");
+}
+
+/// Particles at distances of 2 to 9: the nearer half of them has smaller droplets with a limit.
+#[test]
+fn droplets_near_the_eye_are_limited() {
+    let gpu = Gpu::shared();
+    let size = extent(120, 90);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let points: Vec<_> = (0..8_u8)
+        .map(|i| {
+            let (side, depth) = (f32::from(i % 4) - 1.5, 2.0 + f32::from(i));
+            [0.3 * side * depth, 0.2 * (f32::from(i / 4) - 0.5) * depth, depth]
+        })
+        .collect();
+    let mut case = Sprayed::of(Shot::new(size, Lens::Standard, 0.3, &points), 0.0);
+    (case.look().size, case.look().droplets, case.look().mist) = (1.0, 16, 0.0);
+    let covered = |case: &mut Sprayed, rig: &mut Rig, max_angle: f32| {
+        case.look().max_angle = max_angle;
+        let drawn = case.draw(rig);
+        case.check(&format!("spray-angle-{max_angle}"), &drawn).1
+    };
+    let [free, limited] = [1.0, 0.02].map(|angle| covered(&mut case, &mut rig, angle));
+    assert!(limited > 100 && free > limited + limited / 4, "{free} pixels, limited {limited}");
 }
 
 /// A particle that flies straight at the eye is drawn as if at rest, at any speed: its motion

@@ -164,6 +164,7 @@ fn spoils() -> Vec<Spoil> {
         }),
         ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
         ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
+        ("angle", "Settings.spray.max_angle", |g| g.settings.spray.max_angle = 0.0),
         ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
         ("densities", "Settings.spray.full_water_density", |g| {
             g.settings.spray.full_water_density = 0.1

@@ -172,6 +172,8 @@ pub struct Settings {
     pub opacity: f64,
     /// Half-axis of a disc with the area of all droplets, in drawn radii.
     pub size: f64,
+    /// Max half-axis of one of several droplets, relative to its depth.
+    pub max_angle: f64,
     /// n, the number of droplets per particle.
     pub droplets: u32,
     /// Max distance of droplets from the particle's centre, in spacings.
@@ -220,6 +222,10 @@ impl More {
 
 fn at_least(a: Rounded, b: Rounded) -> Rounded {
     Rounded { v: a.v.max(b.v), e: a.e.max(b.e) }
+}
+
+fn at_most(a: Rounded, b: Rounded) -> Rounded {
+    Rounded { v: a.v.min(b.v), e: if a.v + a.e < b.v - b.e { a.e } else { a.e.max(b.e) } }
 }
 
 fn depth_of(p: Off) -> Rounded {
@@ -330,7 +336,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         let depth = depth_of(p);
         let (mut h, thick) = settings.half_axis(k, u(3));
         if many && k > 0 {
-            h = h * (exact(1.0) / torn.sqrt());
+            h = at_most(h * (exact(1.0) / torn.sqrt()), off(settings.max_angle, 1.0) * depth);
         }
         let mist = (many && k == 0).then_some(&particle.shape);
         let (mut one, pixel) = droplet(p, v, (h, thick, mist), view, settings);

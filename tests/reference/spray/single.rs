@@ -78,6 +78,7 @@ fn single(
         let g = if n > 1 { (least + range * u[3].powi(6)) / torn.sqrt() } else { 1.0 };
         let mist = n > 1 && k == 0;
         let h = g * settings.size as f32 * 0.656 * s / many.sqrt();
+        let h = if n > 1 { h.min(settings.max_angle as f32 * -p.z) } else { h };
         let [taken, wide] = settings.mist.map(|v| v as f32);
         let (h, taken) = if mist { (wide * s, taken) } else { (h, settings.opacity as f32) };
         let pixel = -p.z * scale.abs().max_element();
@@ -203,6 +204,7 @@ fn single_precision_stays_in_the_bounds() {
             shutter,
             densities,
             clumps: f64::from(u8::from(droplets == 17)),
+            max_angle: f64::from([1.0, 0.05_f32][usize::from(droplets == 16)]),
             ..settings()
         };
         let mut r = Random(u64::from(droplets));

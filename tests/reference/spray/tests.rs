@@ -11,6 +11,7 @@ pub(super) fn settings() -> Settings {
         rest_density: 1000.0,
         opacity: 0.5,
         size: 0.5,
+        max_angle: 1.0,
         droplets: 1,
         spread: 0.0,
         stretch: 0.0,

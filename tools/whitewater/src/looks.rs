@@ -69,6 +69,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.opacity = 0.95;
         it.droplets = 64;
         it.size = 0.185;
+        it.max_angle = 0.003;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = 0.3 * torn;
@@ -76,7 +77,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.clumps = 0.7;
         it.strand_ratio = 6.0;
         it.few_neighbours = [3.5, 9.0];
-        it.exposure = 0.001;
+        it.exposure = 0.003;
         it.shade = 2.5 + 31.0 * torn;
         it.scattering = 0.6;
         it.relief = 2.5;

@@ -67,6 +67,7 @@ pub struct Reading {
 /// A part of the particles, ready for upload.
 struct Part {
     positions: Vec<[f32; 3]>,
+    velocities: Option<Vec<[f32; 3]>>,
     kinds: Vec<u32>,
     radii: Option<Vec<f32>>,
     ages: Vec<f32>,
@@ -103,10 +104,13 @@ const FEW: f32 = 0.12;
 /// Each whitewater particle is drawn as several copies if a column that holds any foam (or any spray) has on average
 /// fewer particles than the first number here. The second is the max number of copies of a particle, the third the
 /// max number of all drawn particles.
-const COPIES: (f32, u32, usize) = (100.0, 24, 3_000_000);
+const COPIES: (f32, u32, usize) = (270.0, 64, 3_000_000);
 /// Max distance of a copy from the particle that it copies, in spacings, for foam, spray and bubbles. A copy of foam
 /// is vertically at most a third of this distance away.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
+/// How much farther copies of spray lie along the motion of their particle, and how much nearer across it: torn water
+/// flies in strands.
+const STRAND: [f32; 2] = [2.0, 0.4];
 /// Min and max radius of a whitewater particle, in spacings of the water. The search for shadows does not resolve
 /// smaller spheres, and larger ones are seen as single balls.
 const RADII: [f32; 2] = [0.1, 0.14];
@@ -378,6 +382,7 @@ impl Part {
         let kinds = kinds.unwrap_or_else(|| vec![0; count]);
         let mut part = Self {
             positions: read.positions,
+            velocities: read.velocities,
             radii: None,
             kinds,
             ages: ages.unwrap_or_else(|| vec![0.0; count]),
@@ -391,8 +396,9 @@ impl Part {
         part
     }
 
-    /// Replaces each particle by its copies. The first copy is at the particle's place, the others lie around it.
-    /// Their offsets depend on the particle's id, or on its index if it has none.
+    /// Replaces each particle by its copies. The first copy is at the particle's place, the others lie around it,
+    /// those of moving spray along its motion. Their offsets depend on the particle's id, or on its index if it has
+    /// none.
     fn scatter(&mut self, drawn: &Drawn, first: u32) {
         let copies = drawn.copies as usize;
         if copies < 2 {
@@ -406,17 +412,25 @@ impl Part {
             // The distances are uniformly distributed, so the copies are denser near the particle than farther away.
             let reach = SCATTER[kind] * drawn.spacing;
             let high = if kind == 0 { reach / 3.0 } else { reach };
+            let velocity =
+                self.velocities.as_ref().filter(|_| kind == 1).map(|all| Vec3::from(all[i]));
+            let motion = velocity.and_then(Vec3::try_normalize);
             // Multiplying by the golden ratio's bits spreads the seeds of consecutive ids.
             let mut random = Random((u64::from(known(i)) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
             positions.extend((1..copies).map(|_| {
                 let away = Vec3::from([(); 3].map(|()| 2.0 * random.next() - 1.0));
-                let away = away.normalize_or_zero() * random.next();
-                (Vec3::from(p) + away * Vec3::new(reach, high, reach)).to_array()
+                let away = away.normalize_or_zero() * random.next() * Vec3::new(reach, high, reach);
+                let away = motion.map_or(away, |motion| {
+                    let along = away.dot(motion) * motion;
+                    STRAND[0] * along + STRAND[1] * (away - along)
+                });
+                (Vec3::from(p) + away).to_array()
             }));
         }
         let each =
             |values: &[f32]| values.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
         self.positions = positions;
+        self.velocities = None;
         self.ages = each(&self.ages);
         self.kinds = self.kinds.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
         self.ids = self.ids.take().map(|ids| {
@@ -487,7 +501,7 @@ mod tests {
     }
 
     /// Test: the size and number of copies that are chosen give the same patch of foam, 40 by 40 columns, an opacity
-    /// of 0.25 to 0.35 if it has a thousand particles, [`HIDDEN`] with ten thousand to a million, more with ten
+    /// of 0.55 to 0.65 if it has a thousand particles, [`HIDDEN`] with ten thousand to a million, more with ten
     /// million. With the radius and half-intensity thickness of the paper ten thousand would give less than 0.02.
     #[test]
     fn ten_thousand_and_ten_million_read_as_foam() {
@@ -505,11 +519,11 @@ mod tests {
             "more hides no less: {all:?}"
         );
         let [thousand, ten, hundred, million, _, most] = all;
-        // Even 24 copies make only 15 per column: the radius is at its max.
+        // Even 64 copies make only 40 per column: the radius is at its max.
         assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
-        assert!((0.25..0.35).contains(&thousand.0), "{thousand:?}");
+        assert!((0.55..0.65).contains(&thousand.0), "{thousand:?}");
         assert!((ten.0 / HIDDEN - 1.0).abs() < 1.0e-4 && ten.1 < RADII[1], "{ten:?}");
-        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < ten.1, "{hundred:?}");
+        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 <= ten.1, "{hundred:?}");
         assert!((million.0 / HIDDEN - 1.0).abs() < 1.0e-4 && million.2 > FEW, "{million:?}");
         assert!(most.0 > HIDDEN && most.2 == 3.0, "{most:?}");
         assert!([million, most].iter().all(|of| (of.1 - RADII[0]).abs() < 1.0e-6));
@@ -524,11 +538,11 @@ mod tests {
     #[test]
     fn few_are_drawn_as_several_where_each_lies() {
         assert_eq!(
-            copies([Some(120.0), Some(100.0), Some(1.0)], 1_000_000),
+            copies([Some(280.0), Some(270.0), Some(1.0)], 1_000_000),
             1,
             "bubbles need none"
         );
-        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 10);
+        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 27);
         assert_eq!(copies([Some(0.5), None, None], 10_000), COPIES.1);
         assert_eq!(copies([Some(0.5), None, None], 1_000_000), 3, "no more of all");
         assert_eq!(copies([None; 3], 0), 1);
@@ -566,6 +580,32 @@ mod tests {
         read.lifetimes.as_mut().unwrap().reverse();
         let turned = of(read, Some(drawn));
         assert_eq!(turned.positions[25..], all.positions[..5]);
+    }
+
+    /// Test: copies of moving spray lie along its motion; those of foam, and of spray at rest, lie as without velocities.
+    #[test]
+    fn copies_of_moving_spray_are_a_strand() {
+        let motion = Vec3::new(2.0, -1.0, 2.0);
+        let mut read = Particles::from_positions(vec![[1.0; 3]; 3]);
+        read.kinds = Some(vec![0, 1, 1]);
+        read.ids = Some(vec![7, 8, 9]);
+        let drawn = Some(Drawn { radii: [0.01; 3], copies: 64, spacing: 0.1 });
+        let still = Part::new(read.clone(), None, (Placing::default(), None, drawn), 0);
+        read.velocities = Some(vec![motion.to_array(), motion.to_array(), [0.0; 3]]);
+        let moving = Part::new(read, None, (Placing::default(), None, drawn), 0);
+        assert_eq!(moving.positions[..64], still.positions[..64], "foam");
+        assert_eq!(moving.positions[128..], still.positions[128..], "spray at rest");
+        for (at, round) in moving.positions[64..128].iter().zip(&still.positions[64..]) {
+            let [at, round] = [at, round].map(|p| Vec3::from(*p) - Vec3::ONE);
+            // Parts of an offset along the motion and across it.
+            let parts = |off: Vec3| [off.dot(motion) / 3.0, off.cross(motion).length() / 3.0];
+            for (i, factor) in [2.0, 0.4].into_iter().enumerate() {
+                assert!(
+                    (parts(at)[i] - factor * parts(round)[i]).abs() < 1.0e-5,
+                    "{at} of {round}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -348,6 +348,7 @@ table! {
     keys {
         opacity: f32,
         size: f32,
+        max_angle: f32,
         droplets: u32,
         all_spray_density: f32,
         full_water_density: f32,
