@@ -32,6 +32,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // amplitude, cells per second; relief; thickness below which foam fades
     vec4 foam_pattern;  // strength of the pattern; of the lace; width of the lace's cells in scene units; half the pattern's period in seconds
+    vec4 foam_lace;     // strength of the lace's shading
     vec4 foam_octaves;  // spacings per cell of the first octave; origins of the two phases in the noise; strength of shape lighting
     vec4 foam_phases;   // weights of the two phases; displacement of each relative to half a period, -1 to 1
     vec4 foam_back;     // radiance of thin foam; w: quantum of the thickness

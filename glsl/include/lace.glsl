@@ -115,8 +115,9 @@ vec3 drift_at(vec2 pixel) {
 
 // Coverage of a pixel by threads, where smooth foam would have the coverage `hidden`. `place` is the pixel's point in
 // cells of the large bubbles, which are `pixels` wide; the foam moves by `way` cells in half a period. Two phases are
-// blended as in pattern.glsl.
-float laced(float hidden, vec3 place, vec3 way, float pixels) {
+// blended as in pattern.glsl. `pore` becomes the amount of foam that closes the point, less its median: it is above 0
+// in holes, and also tells where they were once foam has closed them.
+float laced(float hidden, vec3 place, vec3 way, float pixels, out float pore) {
     float much = COVERS.x + COVERS.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
     float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);
     float closes = CLOSES;
@@ -128,6 +129,7 @@ float laced(float hidden, vec3 place, vec3 way, float pixels) {
             closes += part * (lace_at(at, pixels) - CLOSES);
         }
     }
+    pore = closes - CLOSES;
     float wide = max(ends, EDGE_ENDS);
     float thread = smoothstep(closes - ends, closes + ends, much);
     float edge = smoothstep(closes - wide, closes + wide, much);

@@ -444,16 +444,22 @@ float foam_middle(FoamTexels foam) {
     return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
 }
 
+// Range of the factor by which lace brightens its threads and darkens its holes.
+const vec2 LACE_LIGHT = vec2(0.5, 1.2);
+
 // Transmittance of foam with the lace pattern. `kept` is the transmittance of smooth foam; the mean over the pattern
 // is close to it. Foam stays smooth where the largest cells of the pattern are less than two pixels wide. `much`
-// becomes the density relative to smooth foam, which is more than 1 in a thread and less than 1 in a hole.
-float through_lace(vec2 pixel, float z, float kept, out float much) {
+// becomes the density relative to smooth foam, which is more than 1 in a thread and less than 1 in a hole. `light`
+// becomes the factor on the foam's colour, so that dense foam, which has no holes, still shows its bubbles.
+float through_lace(vec2 pixel, float z, float kept, out float much, out float light) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
     float pixels = frame.foam_pattern.z / (z * frame.texel.x);
     float told = frame.foam_pattern.y * smoothstep(2.0, 6.0, pixels);
     vec3 way = drift_at(pixel) * (frame.foam_pattern.w / frame.foam_pattern.z);
-    float covered = laced(1.0 - kept, at, way, pixels);
+    float pore;
+    float covered = laced(1.0 - kept, at, way, pixels, pore);
+    light = clamp(1.0 - frame.foam_lace.x * told * pore, LACE_LIGHT.x, LACE_LIGHT.y);
     much = mix(1.0, covered / max(1.0 - kept, 0.05), told);
     return 1.0 - mix(1.0 - kept, covered, told);
 }
@@ -527,13 +533,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     // Very thin foam counts as none: a veil would look like steam.
     foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     float local = 1.0; // density relative to smooth foam
+    float light = 1.0;
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = t.x > 0.0 && texels.depth < EMPTY;
     float z = foam_middle(texels);
     float aerated = frame.foam_aerated.w * (1.0 - foam.kept);
     bool torn = frame.foam_pattern.y > 0.0 && there;
     while (torn) {
-        foam.kept = through_lace(pixel, z, foam.kept, local);
+        foam.kept = through_lace(pixel, z, foam.kept, local, light);
         torn = false;
     }
     // `middle`: distance of the foam's middle behind the frontmost foam. `far / (1 − far)` is this distance in
@@ -557,7 +564,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
         shaped = false;
     }
     vec3 lit = under(vec3(sun * shape.x));
-    foam.color *= lit * (shape.y * relief(pixel, foam.depth, sun));
+    foam.color *= lit * (shape.y * light * relief(pixel, foam.depth, sun));
     // Water under foam is milky with bubbles, also where the lace is open.
     float covered = 1.0 - foam.kept;
     foam.kept *= 1.0 - aerated;

@@ -663,6 +663,10 @@ pub struct SurfaceFoamSettings {
     /// Size of the cells that contain the largest holes of the lace, spacings, (0, 1e3], default 4. Lace fades out
     /// where these cells become smaller than six pixels, and is gone at two.
     pub lace_size: f32,
+    /// How strongly the lace shades foam, [0, 2], default 0: threads are brighter, up to a factor of 1.2, and holes
+    /// darker, down to a factor of 0.5. The shading also shows on thick foam, whose holes are closed. No effect if
+    /// [`lace`](Self::lace) is 0. Not in the thesis.
+    pub lace_shade: f32,
     /// Opacity of the layer of bubbles in the water under foam, as a fraction of the opacity of the foam without
     /// lace, [0, 1], default 0. The bubbles show between the threads of the lace and around the edge of foam. Not in
     /// the thesis.
@@ -718,6 +722,7 @@ impl SurfaceFoamSettings {
             pattern_period: 1.0,
             lace: 0.0,
             lace_size: 4.0,
+            lace_shade: 0.0,
             aeration: 0.0,
             aerated_color: [0.30, 0.62, 0.66],
             time: 0.0,
@@ -770,6 +775,7 @@ impl SurfaceFoamSettings {
         range("Settings.surface_foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
         range("Settings.surface_foam.lace", self.lace, 0.0, 1.0)?;
         range("Settings.surface_foam.lace_size", self.lace_size, 1.0e-3, 1.0e3)?;
+        range("Settings.surface_foam.lace_shade", self.lace_shade, 0.0, 2.0)?;
         range("Settings.surface_foam.aeration", self.aeration, 0.0, 1.0)?;
         for color in self.aerated_color {
             range("Settings.surface_foam.aerated_color", color, 0.0, 1.0)?;

@@ -166,6 +166,7 @@ fn spoils() -> Vec<Spoil> {
         ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
         ("angle", "Settings.spray.max_angle", |g| g.settings.spray.max_angle = 0.0),
         ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
+        ("lace", "Settings.surface_foam.lace_shade", |g| g.settings.surface_foam.lace_shade = 2.5),
         ("densities", "Settings.spray.full_water_density", |g| {
             g.settings.spray.full_water_density = 0.1
         }),

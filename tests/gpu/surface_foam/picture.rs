@@ -247,15 +247,25 @@ fn check_lace(
             let covered = surface_foam::covered(hidden, at, (velocity / cell, &phases), pixels);
             hidden + f64::from(look.lace) * smoothstep(2.0, 6.0, pixels) * (covered - hidden)
         };
-        // Back and front colour are the same, so the pixel tells how much the foam covers.
+        // Holes are darker and threads brighter.
+        let light = |velocity: DVec3| {
+            let told = f64::from(look.lace) * smoothstep(2.0, 6.0, pixels);
+            let pore = told * surface_foam::pore(at, (velocity / cell, &phases), pixels);
+            (1.0 - f64::from(look.lace_shade) * pore).clamp(0.5, 1.2)
+        };
+        // Back and front colour are the same.
         let scene = f64::from(case.shot.color[i][0]);
-        let seen = (f64::from(color[0]) - scene) / (0.9 - scene);
-        let (expected, still) = (covered(velocity), covered(DVec3::ZERO));
+        let color_of = |velocity| scene + (0.9 * light(velocity) - scene) * covered(velocity);
+        let (expected, still) = (color_of(velocity), color_of(DVec3::ZERO));
         let origin = to_world.w_axis.truncate().length() / cell;
-        let bound = closing_error((at, origin), &phases, pixels) + 400.0 * U / (0.9 - scene).abs();
+        let closing = closing_error((at, origin), &phases, pixels);
+        // The smoothstep in `closing` divides by the width of a thread's end.
+        let shading = closing * surface_foam::ends(pixels) / 0.75 * f64::from(look.lace_shade);
+        let bound = closing * (0.9 * light(velocity) - scene).abs() + 0.9 * shading + 400.0 * U;
+        let found = f64::from(color[0]);
         assert!(
-            (seen - expected).abs() <= bound,
-            "{name} ({x}, {y}): {seen}, not {expected}; at rest it would be {still}"
+            (found - expected).abs() <= bound,
+            "{name} ({x}, {y}): {found}, not {expected}; at rest it would be {still}"
         );
         compared += 1;
         moved += usize::from((expected - still).abs() > 2.0 * bound);
@@ -275,7 +285,7 @@ fn lace_moves_with_the_foam_at_each_pixel() {
     let [one, other] = [[3.0, -1.5, 0.5], [-2.5, 2.0, -1.0]].map(|v| v.map(|v| v * spacing));
     // Points (x, y, depth), amounts and velocities.
     type Foam = ([f32; 3], f32, [f32; 3]);
-    let draw = |foam: &[Foam], rig: &mut Rig<'_>| {
+    let draw_with = |foam: &[Foam], dense: f32, shade: f32, rig: &mut Rig<'_>| {
         let mut case = Foamy::new(size, Lens::Standard, 0.0);
         let points: Vec<_> = foam.iter().map(|(at, _, _)| *at).collect();
         case.shot.positions = scenes::world(&case.shot.camera, &points);
@@ -285,9 +295,10 @@ fn lace_moves_with_the_foam_at_each_pixel() {
         let look = &mut case.shot.settings.surface_foam;
         (look.noise, look.pattern, look.normal_strength, look.min_thickness) = (0.0, 0.0, 0.0, 0.0);
         // Faint foam covers as much as other foam.
-        (look.extinction, look.front_extinction) = (8.0 / foam[0].1, 5.0);
+        (look.extinction, look.front_extinction) = (dense / foam[0].1, 5.0);
         (look.back_color, look.front_color) = ([0.9; 3], [0.9; 3]);
         (look.lace, look.lace_size, look.aeration) = (1.0, 1.0, 0.0);
+        look.lace_shade = shade;
         // The water around faint foam is as clear as air.
         case.shot.settings.water.medium =
             Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
@@ -295,12 +306,20 @@ fn lace_moves_with_the_foam_at_each_pixel() {
         let drawn = case.draw(rig);
         (case, drawn)
     };
+    let draw = |foam: &[Foam], rig: &mut Rig<'_>| draw_with(foam, 8.0, 0.0, rig);
     let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
 
     for amount in [1.0, 0.3, 0.1] {
         let (case, drawn) = draw(&[([0.1, -0.2, 3.0], amount, one)], &mut rig);
         let count = check_lace(&format!("alone {amount}"), &case, &drawn, |_, _| Some(wide(one)));
         assert!(count > 500, "{count} pixels of {amount}");
+    }
+    // Shaded lace: thin foam, and foam so thick that all holes are closed, which only the shading shows.
+    for (dense, shade) in [(8.0, 1.0), (400.0, 0.5), (400.0, 2.0)] {
+        let (case, drawn) = draw_with(&[([0.1, -0.2, 3.0], 1.0, one)], dense, shade, &mut rig);
+        let name = format!("density {dense}, shade {shade}");
+        let count = check_lace(&name, &case, &drawn, |_, _| Some(wide(one)));
+        assert!(count > 500, "{name}: {count} pixels");
     }
     // The picture ends 0.577 depths from its middle in x; the nearest node is more than half a coarse cell away.
     let (case, drawn) = draw(&[([-0.86, 0.1, 0.6], 1.0, one)], &mut rig);

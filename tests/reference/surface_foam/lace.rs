@@ -78,16 +78,20 @@ pub fn ends(pixels: f64) -> f64 {
     (ENDS.1 / pixels).max(ENDS.0)
 }
 
-/// Fraction that threads cover of a point, where smooth foam would cover `hidden`. The distances of
-/// two pattern phases from the median are summed with their weights; `drift` is the foam's velocity
-/// in cells per second.
-pub fn covered(hidden: f64, place: DVec3, (drift, phases): (DVec3, &[Phase]), pixels: f64) -> f64 {
-    let much = LOGISTIC.0 + LOGISTIC.1 * (hidden.max(1.0e-6) / (1.0 - hidden).max(1.0e-6)).ln();
+/// Amount of foam that covers a point, less the median. The distances of two pattern phases from the
+/// median are summed with their weights; `drift` is the foam's velocity in cells per second.
+pub fn pore(place: DVec3, (drift, phases): (DVec3, &[Phase]), pixels: f64) -> f64 {
     let of = |phase: &Phase| {
         let at = place - drift * phase.carried + phase.began;
         phase.part * (closes(at, pixels) - MEDIAN)
     };
-    let closes = MEDIAN + phases.iter().map(of).sum::<f64>();
+    phases.iter().map(of).sum()
+}
+
+/// Fraction that threads cover of a point, where smooth foam would cover `hidden`.
+pub fn covered(hidden: f64, place: DVec3, moving: (DVec3, &[Phase]), pixels: f64) -> f64 {
+    let much = LOGISTIC.0 + LOGISTIC.1 * (hidden.max(1.0e-6) / (1.0 - hidden).max(1.0e-6)).ln();
+    let closes = MEDIAN + pore(place, moving, pixels);
     let ends = ends(pixels);
     let over = |ends: f64| smoothstep(closes - ends, closes + ends, much);
     let body = 1.0 - SHEER.0 * (1.0 - smoothstep(0.0, SHEER.1, much - closes));

@@ -96,6 +96,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.normal_strength = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
+        it.lace_shade = 1.0;
         // Accelerating water shears the lace; the longer the period, the farther.
         it.pattern_period = (5.0 * (spacing / 9.81).sqrt()).min(1.0);
         it.aeration = 0.6;

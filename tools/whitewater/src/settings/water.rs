@@ -245,6 +245,7 @@ table! {
         pattern_period: f32,
         lace: f32,
         lace_size: f32,
+        lace_shade: f32,
         aeration: f32,
         aerated_color: [f32; 3],
         front_power: f32,
