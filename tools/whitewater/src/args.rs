@@ -74,7 +74,8 @@ pub enum Command {
     /// each attribute, the up axis, and what is missing for foam. Of attributes that distinguish types of particles it
     /// prints the values, and which types are at rest while others move: probably walls. Below the frames of a sequence
     /// it prints a summary: the frame rate and how it was found, the least and the greatest number of particles, and
-    /// the frame whose water is fastest (types at rest do not count). With --json there is no summary.
+    /// the frame whose water is fastest (types at rest do not count). With --json it prints one object: `frames` is an
+    /// array, `sequence` the summary, or null where the files are no sequence.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures

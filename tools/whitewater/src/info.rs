@@ -17,7 +17,7 @@ use crate::out;
 use crate::placing;
 use crate::radii;
 use crate::reader::Has;
-use crate::summary::Summary;
+use crate::summary::{self, Summary};
 use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
@@ -57,10 +57,11 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
         }
     }
     if args.json {
-        let text = serde_json::to_string_pretty(&Value::Array(all)).unwrap_or_default();
+        let value = json!({"frames": all, "sequence": summary.value(&frames)});
+        let text = serde_json::to_string_pretty(&value).unwrap_or_default();
         out::print(format_args!("{text}\n"))?;
-    } else if let Some(text) = summary.text(&frames) {
-        out::print(format_args!("{text}"))?;
+    } else if let Some(value) = summary.value(&frames) {
+        out::print(format_args!("{}", summary::text(&value)))?;
     }
     if failed.is_empty() {
         return Ok(());

@@ -1,6 +1,7 @@
 //! What `whitewater info` says of a sequence as a whole, below its frames.
 
 use glam::Vec3;
+use serde_json::{Value, json};
 use whitewater::io::particles::Particles;
 use whitewater::io::particles::sequence::Frame;
 
@@ -45,7 +46,7 @@ impl Summary {
     }
 
     /// The summary; `None` if `all` is not one sequence, or if fewer than two of its frames can be read.
-    pub fn text(&self, all: &[Frame]) -> Option<String> {
+    pub fn value(&self, all: &[Frame]) -> Option<Value> {
         if self.count < 2 {
             return None;
         }
@@ -58,24 +59,44 @@ impl Summary {
         let found = probes::rate(&reader, all, self.own);
         let found = found.map(|(rate, how)| (rate / probes::step_of(all), how));
         let (rate, how) = found.unwrap_or((DEFAULT_FPS, "assumed; --fps of render sets it"));
-        let rate = round(rate);
-        let readable = match self.count {
-            count if count < all.len() => format!(" ({count} readable)"),
-            _ => String::new(),
-        };
-        let mut text = format!(
-            "{} frames{readable}, {} to {}\n  particles   {} to {}\n  rate        {rate} frames a second ({how})\n",
-            all.len(),
-            first.number,
-            last.number,
-            self.fewest,
-            self.most,
-        );
-        if let Some((number, speed)) = self.liveliest {
-            text += &format!(
-                "  liveliest   frame {number}, with a root mean square speed of {speed:.3} in the files' unit of speed\n"
-            );
-        }
-        Some(text)
+        let liveliest = self
+            .liveliest
+            .map(|(frame, speed)| json!({"frame": frame, "root_mean_square_speed": speed}));
+        Some(json!({
+            "frames": all.len(),
+            "readable": self.count,
+            "first": first.number,
+            "last": last.number,
+            "particles": {"min": self.fewest, "max": self.most},
+            "rate": {"frames_per_second": round(rate), "how": how},
+            "liveliest": liveliest,
+        }))
     }
+}
+
+/// The summary as text.
+pub fn text(value: &Value) -> String {
+    let readable = match &value["readable"] {
+        all if *all == value["frames"] => String::new(),
+        some => format!(" ({some} readable)"),
+    };
+    let (particles, rate) = (&value["particles"], &value["rate"]);
+    let mut text = format!(
+        "{} frames{readable}, {} to {}\n  particles   {} to {}\n  rate        {} frames a second ({})\n",
+        value["frames"],
+        value["first"],
+        value["last"],
+        particles["min"],
+        particles["max"],
+        rate["frames_per_second"].as_f64().unwrap_or_default() as f32,
+        rate["how"].as_str().unwrap_or_default(),
+    );
+    let liveliest = &value["liveliest"];
+    if let Some(speed) = liveliest["root_mean_square_speed"].as_f64() {
+        let frame = &liveliest["frame"];
+        text += &format!(
+            "  liveliest   frame {frame}, with a root mean square speed of {speed:.3} in the files' unit of speed\n"
+        );
+    }
+    text
 }

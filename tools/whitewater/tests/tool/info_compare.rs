@@ -16,7 +16,7 @@ fn info_tells_what_a_file_holds() {
     particles::write(&folder.path("a.bgeo"), &particles, WriteFormat::Bgeo { gzip: true }).unwrap();
     let run = folder.run("info a.bgeo --json").ok();
     let value: Value = serde_json::from_str(&run.stdout()).unwrap();
-    let file = &value[0];
+    let file = &value["frames"][0];
     assert_eq!(file["particles"], 217);
     assert_eq!(file["non_finite"], 1);
     assert!(file["format"].as_str().unwrap().to_lowercase().contains("bgeo"));
@@ -65,8 +65,8 @@ fn info_tells_what_became_of_attributes() {
         let run = folder.run(&format!("info {file} --json")).ok();
         let value: Value = serde_json::from_str(&run.stdout()).unwrap();
         let of = |a: &Value| a["meaning"] == "position";
-        assert!(value[0]["attributes"].as_array().unwrap().iter().all(of), "{value}");
-        let missing = value[0]["missing"].as_str().unwrap();
+        assert!(value["frames"][0]["attributes"].as_array().unwrap().iter().all(of), "{value}");
+        let missing = value["frames"][0]["missing"].as_str().unwrap();
         assert!(missing.starts_with("no velocities and no ids"), "{missing}");
     }
 }
@@ -110,8 +110,8 @@ fn info_goes_on_after_a_bad_file() {
     folder.text("a_2.ply", "ply\n");
     let run = folder.run("info a_*.ply --json").fails(1, &["1 of 2", "a_2.ply"]);
     let value: Value = serde_json::from_str(&run.stdout()).unwrap();
-    assert_eq!(value.as_array().unwrap().len(), 2);
-    assert!(value[1]["error"].is_string());
+    assert_eq!(value["frames"].as_array().unwrap().len(), 2);
+    assert!(value["frames"][1]["error"].is_string() && value["sequence"].is_null());
 }
 
 /// The summary of a sequence counts the files that can be read, if there are several.
@@ -126,6 +126,18 @@ fn info_sums_up_what_can_be_read() {
     let text = folder.run("info a_*.ply").fails(1, &["1 of 3", "a_2.ply"]).stdout();
     let summary = "3 frames (2 readable), 1 to 3\n  particles   8 to 27\n";
     assert!(text.contains(summary), "{text}");
+    let json = folder.run("info a_*.ply --json").fails(1, &["1 of 3"]).stdout();
+    let value: Value = serde_json::from_str(&json).unwrap();
+    let expected = serde_json::json!({
+        "frames": 3,
+        "readable": 2,
+        "first": 1,
+        "last": 3,
+        "particles": {"min": 8, "max": 27},
+        "rate": {"frames_per_second": 30.0, "how": "assumed; --fps of render sets it"},
+        "liveliest": null,
+    });
+    assert_eq!(value["sequence"], expected);
     for bad in ["b_1.ply", "b_2.ply"] {
         folder.text(bad, "ply\n");
     }
@@ -144,7 +156,7 @@ fn info_takes_files_that_are_no_sequence() {
         let run = folder.run(&format!("info {inputs} --json")).ok();
         let value: Value = serde_json::from_str(&run.stdout()).unwrap();
         let each = |v: &Value| format!("{} {}", v["file"].as_str().unwrap(), v["frame"]);
-        value.as_array().unwrap().iter().map(each).collect::<Vec<_>>().join(", ")
+        value["frames"].as_array().unwrap().iter().map(each).collect::<Vec<_>>().join(", ")
     };
     assert_eq!(files("a_28.ply a_27.ply"), "a_27.ply 27, a_28.ply 28");
     assert_eq!(
