@@ -566,7 +566,8 @@ impl<'a> Search<'a> {
             let column = names.iter().find_map(|name| self.one(name, components))?;
             Some(Vector::Whole(column, components))
         };
-        let split = || names::triples(names).map(|n| n.map(|name| self.one(&name, 1)));
+        let one = |name: &String| self.one(name, 1);
+        let split = || names::triples(names).iter().map(|names| names.each_ref().map(one));
         let of_three = || split().find(|columns| !columns.contains(&None)).map(Vector::Split);
         let of_two = || {
             let mut split = split();

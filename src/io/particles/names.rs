@@ -5,6 +5,9 @@
 //! `velocity[2]`, `Velocity[i]`, `Velocity u`. A prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`;
 //! before vectors also `Track: Parcel` and `Translational`.
 
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
 /// Plain names with one meaning, in order of preference.
 pub(super) type Names = &'static [&'static str];
 
@@ -141,8 +144,20 @@ fn vector_behind(name: &str) -> Option<&str> {
     if vector { Some(rest) } else { vector_behind(rest) }
 }
 
-/// The plain names of three scalars that form a vector.
-pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
+/// The plain names of three scalars that form a position, and of those that form a velocity.
+static TRIPLES: LazyLock<[Vec<[String; 3]>; 2]> =
+    LazyLock::new(|| [POSITION, VELOCITY].map(|names| all_triples(names).collect()));
+/// Names of single components of positions, and of velocities.
+static COMPONENTS: LazyLock<[HashSet<&str>; 2]> = LazyLock::new(|| {
+    TRIPLES.each_ref().map(|triples| triples.iter().flatten().map(String::as_str).collect())
+});
+
+/// The plain names of three scalars that form a vector, which is a position or a velocity.
+pub(super) fn triples(names: Names) -> &'static [[String; 3]] {
+    &TRIPLES[usize::from(names != POSITION)]
+}
+
+fn all_triples(names: Names) -> impl Iterator<Item = [String; 3]> {
     let position = names == POSITION;
     let bare = std::iter::once("").filter(move |_| position);
     let split = bare.chain(names.iter().copied()).flat_map(move |base| {
@@ -174,9 +189,7 @@ pub(super) fn known(name: &str) -> bool {
     [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND, GHOST, STEP]
         .iter()
         .any(|names| names.contains(&name))
-        || [POSITION, VELOCITY]
-            .iter()
-            .any(|names| triples(names).any(|t| t.iter().any(|n| n == name)))
+        || COMPONENTS.iter().any(|components| components.contains(name))
 }
 
 /// Whether an attribute with this name is a vector.
@@ -197,8 +210,7 @@ pub(super) fn is_position(name: &str) -> bool {
 
 /// Whether this is the name of one component of positions.
 pub(super) fn is_component(name: &str) -> bool {
-    let plain = plain(name);
-    triples(POSITION).any(|names| names.contains(&plain))
+    COMPONENTS[0].contains(plain(name).as_str())
 }
 
 /// Whether this is the name of a list of times.
@@ -228,7 +240,8 @@ pub(super) fn is_step(name: &str) -> bool {
 /// of names from other lines.
 pub(super) fn have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let plain: Vec<String> = names.iter().map(|name| plain(name.as_ref())).collect();
-    triples(POSITION).any(|names| names.iter().filter(|name| plain.contains(name)).count() > 1)
+    let found = |names: &[String; 3]| names.iter().filter(|name| plain.contains(name)).count() > 1;
+    triples(POSITION).iter().any(found)
 }
 
 #[cfg(test)]
