@@ -154,7 +154,8 @@ static COMPONENTS: LazyLock<[HashSet<&str>; 2]> = LazyLock::new(|| {
 
 /// The plain names of three scalars that form a vector, which is a position or a velocity.
 pub(super) fn triples(names: Names) -> &'static [[String; 3]] {
-    &TRIPLES[usize::from(names != POSITION)]
+    let [positions, velocities] = &*TRIPLES;
+    if names == POSITION { positions } else { velocities }
 }
 
 fn all_triples(names: Names) -> impl Iterator<Item = [String; 3]> {
@@ -210,7 +211,8 @@ pub(super) fn is_position(name: &str) -> bool {
 
 /// Whether this is the name of one component of positions.
 pub(super) fn is_component(name: &str) -> bool {
-    COMPONENTS[0].contains(plain(name).as_str())
+    let [positions, _] = &*COMPONENTS;
+    positions.contains(plain(name).as_str())
 }
 
 /// Whether this is the name of a list of times.
