@@ -118,7 +118,7 @@ fn few_particles_and_many_read_as_foam() {
         let table = text.parse::<toml::Table>().unwrap();
         table["whitewater"].as_table().unwrap().get(key).cloned()
     };
-    // A hundred discs per column with a radius of 0.13 columns, and a mean square of 0.191 for radii of 1 to 1/8, cover 1 -
+    // A hundred discs per column (few have 270 smaller ones) with a radius of 0.13 columns, and a mean square of 0.191 for radii of 1 to 1/8, cover 1 -
     // exp(-1.0) = 0.65; overlapping rims make it 0.70. Many small ones form a continuous field, as `Sizes` describes.
     for (name, hides) in [("few", 0.63), ("many", 0.7)] {
         let run =
@@ -129,8 +129,8 @@ fn few_particles_and_many_read_as_foam() {
         assert!(intensity > hides, "{name}: {intensity}");
         // The mean over the drawn discs, seen from 1.85 to 2.85 away; a few lie at the borders.
         let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
-        // With few particles each is drawn as ten, which makes a hundred per column.
-        let n = if name == "few" { 100.0 } else { 1000.0 };
+        // With few particles each is drawn as 27, which makes 270 per column.
+        let n = if name == "few" { 270.0 } else { 1000.0 };
         let expected = 0.317_6 * n * (radius / 0.1).powi(2);
         let thickness = middle(&exr, "whitewater.thickness") + middle(&exr, "whitewater.submerged");
         assert!((thickness / expected - 1.0).abs() < 0.1, "{name}: {thickness} {expected}");
