@@ -66,8 +66,8 @@ pub struct Area {
     /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
     /// Centre of the map's area along the two horizontal [`axes`](Self::axes), scene units. The axes are x and z for y
-    /// up, x and −y for z up, y and −z for x up. The area is snapped to whole texels, so a map that follows a camera
-    /// keeps its content as long as the camera moves by less than a texel.
+    /// up, x and −y for z up, y and −z for x up. The area is snapped to whole texels: the content of a map that
+    /// follows a camera does not flicker.
     pub center: [f32; 2],
     /// Side length in scene units, (0, 1e6].
     pub edge: f32,

@@ -576,7 +576,7 @@ fn large_droplets_reach_into_the_picture() {
     assert!(covered > 100, "{covered} pixels");
 }
 
-/// Particles at distances of 2 to 9: the nearer half of them has smaller droplets with a limit.
+/// With a limit, droplets near the eye are smaller. The particles are at distances of 2 to 9.
 #[test]
 fn droplets_near_the_eye_are_limited() {
     let gpu = Gpu::shared();

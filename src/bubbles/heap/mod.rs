@@ -458,7 +458,7 @@ impl BlobSimulation {
     /// Number of entries in the streams of [`blobs`](Self::blobs): 0 before [`record_set`](Self::record_set), then the
     /// number of blobs that it was given, times `2^max_splits` ([`BlobSimulationConfig::max_splits`]). The spheres of
     /// entries that no half of a split blob uses yet are all zeros. `max_blobs` of `Config::bubbles` has to be at
-    /// least as large. [`BlobSimulationConfig::max_blobs`] times `2^max_splits` is enough for any number of blobs.
+    /// least as large; `max_blobs * 2^max_splits` of [`BlobSimulationConfig`] always is.
     pub fn count(&self) -> u32 {
         self.count << self.config.max_splits
     }

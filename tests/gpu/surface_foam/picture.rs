@@ -205,10 +205,10 @@ fn thin_foam_is_torn_into_lace() {
 /// Bound of the error of a pixel's coverage by lace, from rounding, at a point in cells of the pattern; `origin`: the
 /// camera's distance from the world's origin, in cells.
 fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
-    // A position errs by 16u of its distance from the origin in cells, and by 5u of the phase's offset. `closes`
-    // changes per cell by at most `steepest`: 2 * 2 r / r^2 for the bubbles, times their weights over their widths,
-    // times the distortion by the noise, 1 + 0.3 * 27 / 2.6. The smoothstep at the end of a thread has a slope of at
-    // most 1.5 divided by its width.
+    // A position errs by 16u of its distance from the origin in cells, and by 5u of the phase's offset. The gradient
+    // of `closes` is at most `steepest`, the product of three factors: 2 * 2 r / r^2 for a bubble, the sum of weight /
+    // width over the three sizes of bubbles, and 1 + 0.3 * 27 / 2.6 for the displacement by the noise. A smoothstep is
+    // at most 1.5 / width steep; here the width is twice `ends`.
     let steepest = 5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
     let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
     let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
