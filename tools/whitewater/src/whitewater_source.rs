@@ -105,12 +105,17 @@ const FEW: f32 = 0.12;
 /// fewer particles than the first number here. The second is the max number of copies of a particle, the third the
 /// max number of all drawn particles.
 const COPIES: (f32, u32, usize) = (270.0, 64, 3_000_000);
-/// Max distance of a copy from the particle that it copies, in spacings, for foam, spray and bubbles. A copy of foam
-/// is vertically at most a third of this distance away.
+/// Max distance of a copy from the particle that it copies, in spacings, for foam, spray and bubbles.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
-/// How much farther copies of spray lie along the motion of their particle, and how much nearer across it: torn water
-/// flies in strands.
+/// Factor on the vertical distance of copies of foam that floats.
+const FLAT: f32 = 1.0 / 3.0;
+/// Factors on the distance of copies along the motion of their particle and across it, for spray and for foam that
+/// flies: torn water flies in strands.
 const STRAND: [f32; 2] = [2.0, 0.4];
+/// Foam floats if the vertical part of its direction of motion, 0 to 1, is at most the first value. It flies if that
+/// part is at least the second value. Files tell foam from spray by the number of neighbours, so that most of a
+/// dense splash is foam.
+const FLIES: [f32; 2] = [0.1, 0.4];
 /// Min and max radius of a whitewater particle, in spacings of the water. The search for shadows does not resolve
 /// smaller spheres, and larger ones are seen as single balls.
 const RADII: [f32; 2] = [0.1, 0.14];
@@ -397,7 +402,7 @@ impl Part {
     }
 
     /// Replaces each particle by its copies. The first copy is at the particle's place, the others lie around it,
-    /// those of moving spray along its motion. Their offsets depend on the particle's id, or on its index if it has
+    /// those of flying particles along the motion. Their offsets depend on the particle's id, or on its index if it has
     /// none.
     fn scatter(&mut self, drawn: &Drawn, first: u32) {
         let copies = drawn.copies as usize;
@@ -409,20 +414,29 @@ impl Part {
         for (i, &p) in self.positions.iter().enumerate() {
             positions.push(p);
             let kind = kind_of(self.kinds[i]);
+            let velocity = self.velocities.as_ref().map(|all| Vec3::from(all[i]));
+            let motion = velocity.and_then(Vec3::try_normalize);
+            // How far the particle flies (1) instead of floating (0).
+            let flies = match (kind, motion) {
+                (0, Some(motion)) => {
+                    ((motion.y.abs() - FLIES[0]) / (FLIES[1] - FLIES[0])).clamp(0.0, 1.0)
+                }
+                (1, _) => 1.0,
+                _ => 0.0,
+            };
             // The distances are uniformly distributed, so the copies are denser near the particle than farther away.
             let reach = SCATTER[kind] * drawn.spacing;
-            let high = if kind == 0 { reach / 3.0 } else { reach };
-            let velocity =
-                self.velocities.as_ref().filter(|_| kind == 1).map(|all| Vec3::from(all[i]));
-            let motion = velocity.and_then(Vec3::try_normalize);
+            let flat = if kind == 0 { FLAT + (1.0 - FLAT) * flies } else { 1.0 };
+            let [along, across] = STRAND.map(|strand| 1.0 + flies * (strand - 1.0));
             // Multiplying by the golden ratio's bits spreads the seeds of consecutive ids.
             let mut random = Random((u64::from(known(i)) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
             positions.extend((1..copies).map(|_| {
                 let away = Vec3::from([(); 3].map(|()| 2.0 * random.next() - 1.0));
-                let away = away.normalize_or_zero() * random.next() * Vec3::new(reach, high, reach);
+                let away = away.normalize_or_zero() * random.next() * reach;
+                let away = away * Vec3::new(1.0, flat, 1.0);
                 let away = motion.map_or(away, |motion| {
-                    let along = away.dot(motion) * motion;
-                    STRAND[0] * along + STRAND[1] * (away - along)
+                    let part = away.dot(motion) * motion;
+                    along * part + across * (away - part)
                 });
                 (Vec3::from(p) + away).to_array()
             }));
@@ -586,26 +600,31 @@ mod tests {
 
     /// Test: copies of moving spray lie along its motion; those of foam, and of spray at rest, lie as without velocities.
     #[test]
-    fn copies_of_moving_spray_are_a_strand() {
+    fn copies_of_what_flies_are_a_strand() {
         let motion = Vec3::new(2.0, -1.0, 2.0);
-        let mut read = Particles::from_positions(vec![[1.0; 3]; 3]);
-        read.kinds = Some(vec![0, 1, 1]);
-        read.ids = Some(vec![7, 8, 9]);
+        let mut read = Particles::from_positions(vec![[1.0; 3]; 4]);
+        read.kinds = Some(vec![0, 0, 1, 1]);
+        read.ids = Some(vec![6, 7, 8, 9]);
         let drawn = Some(Drawn { radii: [0.01; 3], copies: 64, spacing: 0.1 });
         let still = Part::new(read.clone(), None, (Placing::default(), None, drawn), 0);
-        read.velocities = Some(vec![motion.to_array(), motion.to_array(), [0.0; 3]]);
+        let steep = Vec3::new(1.0, 2.0, -2.0);
+        read.velocities =
+            Some([Vec3::new(2.0, 0.1, 2.0), steep, motion, Vec3::ZERO].map(Into::into).to_vec());
         let moving = Part::new(read, None, (Placing::default(), None, drawn), 0);
-        assert_eq!(moving.positions[..64], still.positions[..64], "foam");
-        assert_eq!(moving.positions[128..], still.positions[128..], "spray at rest");
-        for (at, round) in moving.positions[64..128].iter().zip(&still.positions[64..]) {
-            let [at, round] = [at, round].map(|p| Vec3::from(*p) - Vec3::ONE);
-            // Parts of an offset along the motion and across it.
-            let parts = |off: Vec3| [off.dot(motion) / 3.0, off.cross(motion).length() / 3.0];
-            for (i, factor) in [2.0, 0.4].into_iter().enumerate() {
-                assert!(
-                    (parts(at)[i] - factor * parts(round)[i]).abs() < 1.0e-5,
-                    "{at} of {round}"
-                );
+        assert_eq!(moving.positions[..64], still.positions[..64], "floating foam");
+        assert_eq!(moving.positions[192..], still.positions[192..], "spray at rest");
+        // Foam at rest is flat, foam that flies is not.
+        for (motion, first, high) in [(steep, 64, 3.0), (motion, 128, 1.0)] {
+            let both = moving.positions[first..first + 64].iter().zip(&still.positions[first..]);
+            for (at, round) in both {
+                let [at, round] = [at, round].map(|p| Vec3::from(*p) - Vec3::ONE);
+                let round = round * Vec3::new(1.0, high, 1.0);
+                // Parts of an offset along the motion and across it.
+                let parts = |off: Vec3| [off.dot(motion) / 3.0, off.cross(motion).length() / 3.0];
+                for (i, factor) in [2.0, 0.4].into_iter().enumerate() {
+                    let difference = parts(at)[i] - factor * parts(round)[i];
+                    assert!(difference.abs() < 1.0e-5, "{at} of {round}");
+                }
             }
         }
     }
