@@ -83,7 +83,12 @@ const int BED_LOOKS = 5;
 // Part of the interval between the two ray lengths: false position keeps each new length at least this far from both
 // of them.
 const float BED_ENDS = 0.1;
-vec2 bed_offset(Sheet sheet, vec2 pixel) {
+// Distance along z that a refracted ray crosses before it meets the scene, divided by the thickness of the water. Up
+// to the first value the ray meets the scene under the water. From the second on it has left the water beside the
+// scene that the water touches, such as beside the box from which a jet comes.
+const vec2 BED_MISSED = vec2(2.0, 4.0);
+// `touches` becomes the share of the ray that meets the scene under the water.
+vec2 bed_offset(Sheet sheet, vec2 pixel, out float touches) {
     vec3 inside = into_water(sheet);
     float z = -sheet.at.z;
     float along = max(-inside.z, FLATTEST);
@@ -105,6 +110,8 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
         float next = beyond.x < 0.0 ? open : mix(before.x, beyond.x, part);
         far = skipped ? far : next;
     }
+    float crossed = far * max(-inside.z, 0.0) / max(sheet.thick, frame.particle.y);
+    touches = 1.0 - smoothstep(BED_MISSED.x, BED_MISSED.y, crossed);
     vec3 end = on_screen(sheet.at + inside * far);
     vec2 at = clamp(end.xy, vec2(0.5), frame.extent.xy - 0.5);
     bool plane = all(equal(at, end.xy)) && met_depth(at) > z;

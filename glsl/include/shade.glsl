@@ -760,7 +760,11 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         if (back.wet > 0.0) {
             last = back;
         }
-        offset = mix(offset, bed_offset(last, pixel), last.wet);
+        float touches;
+        vec2 bed = bed_offset(last, pixel, touches);
+        sheet.wet *= touches;
+        back.wet *= touches;
+        offset = mix(offset, bed, last.wet * touches);
         submerged = false;
     }
     bool prism = EXIT > 0u && SHEETS == 2u && covers && back.wet > 0.0 && !by_source();

@@ -151,6 +151,8 @@ pub struct Cases {
     part_drop: usize,
     borrowed: usize,
     mirrored: usize,
+    /// Refracted rays that leave the water beside the scene that it touches.
+    missed: usize,
 }
 
 impl Cases {
@@ -184,6 +186,7 @@ impl std::ops::AddAssign for Cases {
         self.part_drop += other.part_drop;
         self.borrowed += other.borrowed;
         self.mirrored += other.mirrored;
+        self.missed += other.missed;
     }
 }
 
@@ -266,6 +269,9 @@ pub fn check_told(
         }
         cases.count(&found);
         cases.mirrored += usize::from(met.share == 1.0);
+        let touching = twin::Under::of(&settings, &found, &view).wet;
+        let under = twin::Under::met(&inputs, &settings, &found, &view, pixel).wet;
+        cases.missed += usize::from(under < 0.5 * touching);
         decisions += rig.config.mirror_steps as usize;
         // If the look-up's uncertainty reaches a neighbouring texel, the GPU may read another texel
         // of the scene.
@@ -685,6 +691,32 @@ fn what_comes_through_both_surfaces_is_the_twins() {
             }
         }
     }
+}
+
+/// A body of water before the edge of a box that it touches: rays that are refracted past the edge leave the water.
+#[test]
+fn water_does_not_touch_what_a_ray_meets_far_behind_it() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut missed = 0;
+    for way in [Shading::Raster, Shading::Compute] {
+        let config = config(size).with(|it| {
+            it.coarsening = 0;
+            it.composite = Some(way);
+            it.exit = Exit::TwoInterfaces;
+        });
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            for edge in (30..68).step_by(6) {
+                let mut shot = shot(size, lens);
+                shot.scene_depth(|x, _| Some(if x < edge { 4.7 } else { 14.0 }));
+                let name = format!("composite-edge-{lens:?}-{way:?}-{edge}");
+                missed += check(&name, &mut rig, &shot, Sky::Even).missed;
+            }
+        }
+    }
+    assert!(missed > 200, "{missed} rays");
 }
 
 /// A body of water before other water refracts as it does alone. The clear pane of water far behind

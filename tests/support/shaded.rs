@@ -456,8 +456,12 @@ pub fn shaded(
     // Without a scene there is no bed.
     let bed = lit.wet.v + lit.wet.e > 0.0 && is_surface(inputs.scene(x, y));
     if let Some(index) = settings.exit.filter(|_| bed) {
-        let by = (index, 4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
-        let (offset, more) = bed_about(inputs, surface, view, pixel, by);
+        let spacing = settings.radius / 0.656;
+        let by = (index, spacing, 4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
+        let ((offset, more), (touches, error)) = bed_about(inputs, surface, view, pixel, by);
+        // The thickness' relative error changes the share at most 1.5 · 4 / 2 = 3 times as much.
+        let error = error + 3.0 * lit.thick.e / lit.thick.v.max(spacing);
+        lit.wet = lit.wet * Rounded { v: touches, e: error };
         moved += more + lit.wet.e * (offset.length() + view.extent().y / 16.0);
     }
     let q = look_up(inputs, settings, surface, view, pixel);

@@ -8,11 +8,12 @@
 //! path w per depth, and the sun's cosine c_s in water; T_in = exp(-5 k w h) is the way up and down
 //! again.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::super::surface::Surface;
 use super::super::{View, smoothstep};
-use super::{Fresnel, Medium, Settings};
+use super::exit::{Off, bed_offset};
+use super::{Fresnel, Inputs, Medium, Settings};
 
 /// Light on the scene under water.
 #[derive(Clone, Copy, Debug)]
@@ -105,6 +106,21 @@ impl Under {
         let way = 1.0 + level * (bent - 1.0);
         let path = straight * (1.0 + wet * (way - 1.0));
         Self { wet, down: straight * rise.max(0.0), path, film: film(settings, thickness) }
+    }
+
+    /// As [`Under::of`], but a refracted ray that leaves the water beside the scene is not under it.
+    pub fn met(
+        inputs: &Inputs<'_>,
+        settings: &Settings,
+        surface: &Surface,
+        view: &View,
+        pixel: DVec2,
+    ) -> Self {
+        let under = Self::of(settings, surface, view);
+        let Some(index) = settings.exit.filter(|_| under.wet > 0.0) else { return under };
+        let by = (index, settings.radius / 0.656, &Off::default());
+        let (_, touches) = bed_offset(inputs, surface, view, pixel, by);
+        Self { wet: under.wet * touches, ..under }
     }
 }
 

@@ -67,15 +67,16 @@ pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
 }
 
 /// Displacement in pixels between the scene straight behind and the scene that the refracted ray
-/// meets under water: five steps of regula falsi, from the depth straight behind. While the ray is
+/// meets under water, and the share of the ray that meets it there: none of a ray that crosses four
+/// times the water's thickness, or four spacings, and all up to two. The displacement takes five steps of regula falsi, from the depth straight behind. While the ray is
 /// before the scene, it is extended by the remaining depth, at most to twice its length.
 pub fn bed_offset(
     inputs: &Inputs<'_>,
     surface: &Surface,
     view: &View,
     pixel: DVec2,
-    (index, off): (f64, &Off),
-) -> DVec2 {
+    (index, spacing, off): (f64, f64, &Off),
+) -> (DVec2, f64) {
     let position = surface.position * (1.0 + off.scale);
     let normal = (surface.normal + off.front).normalize();
     let inside =
@@ -110,10 +111,12 @@ pub fn bed_offset(
         };
     }
     let found = on_screen(view, position + inside * far);
+    let crossed = far * (-inside.z).max(0.0) / surface.thickness.max(spacing);
+    let touches = 1.0 - smoothstep(2.0, 4.0, crossed);
     let at = ends(far);
     let inside = at == found.truncate() && depth(inputs, view, at) > -position.z;
     let at = if inside { on_plane(inputs, view, on_screen(view, position), found) } else { at };
-    at.clamp(DVec2::splat(0.5), view.extent() - 0.5) - pixel
+    (at.clamp(DVec2::splat(0.5), view.extent() - 0.5) - pixel, touches)
 }
 
 /// Where the line between two places on the screen, or its continuation by at most four texels, crosses the
@@ -141,26 +144,28 @@ fn on_plane(inputs: &Inputs<'_>, view: &View, start: DVec3, found: DVec3) -> DVe
     found.truncate() + moved.clamp_length_max(4.0 * size.y)
 }
 
-/// Displacement of [`bed_offset`], and its error in pixels.
+/// Displacement of [`bed_offset`] and its error in pixels, and the share that touches with its error.
 pub fn bed_about(
     inputs: &Inputs<'_>,
     surface: &Surface,
     view: &View,
     pixel: DVec2,
-    (index, turned, share): (f64, f64, f64),
-) -> (DVec2, f64) {
-    let of = |off: &Off| bed_offset(inputs, surface, view, pixel, (index, off));
-    let found = of(&Off::default());
-    let mut moved = 0.0;
+    (index, spacing, turned, share): (f64, f64, f64, f64),
+) -> ((DVec2, f64), (f64, f64)) {
+    let of = |off: &Off| bed_offset(inputs, surface, view, pixel, (index, spacing, off));
+    let (found, touches) = of(&Off::default());
+    let (mut moved, mut changed) = (0.0, 0.0);
     let fronts = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| (axis * turned, 0.0));
     for (front, scale) in fronts.into_iter().chain([(DVec3::ZERO, share)]) {
         let both = [1.0, -1.0].map(|sign| {
             let off = Off { front: front * sign, scale: scale * sign, ..Off::default() };
-            of(&off).distance(found)
+            let (there, other) = of(&off);
+            (there.distance(found), (other - touches).abs())
         });
-        moved += both[0].max(both[1]);
+        moved += both[0].0.max(both[1].0);
+        changed += both[0].1.max(both[1].1);
     }
-    (found, moved)
+    ((found, moved), (touches, changed))
 }
 
 /// Light that enters a surface from behind, combined with what the front surface alone shows.
@@ -175,8 +180,8 @@ pub fn exit(
     env: impl Fn(DVec3) -> DVec3,
     off: &Off,
 ) -> Seen {
-    let under = Under::of(settings, surface, view);
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+    let under = Under::met(inputs, settings, surface, view, pixel);
     let position = surface.position * (1.0 + off.scale);
     let (v, n) = (-position.normalize(), (surface.normal + off.front).normalize());
     let t = surface.thickness * (1.0 + off.thick);

@@ -180,11 +180,12 @@ pub fn look_up(
     pixel: DVec2,
 ) -> DVec2 {
     let by = bent(displacement(settings, surface, view), view);
-    let wet = Under::of(settings, surface, view).wet;
+    let wet = Under::met(inputs, settings, surface, view, pixel).wet;
     pixel
         + match settings.exit.filter(|_| wet > 0.0) {
             Some(index) => {
-                by.lerp(bed_offset(inputs, surface, view, pixel, (index, &Off::default())), wet)
+                let by_index = (index, settings.radius / 0.656, &Off::default());
+                by.lerp(bed_offset(inputs, surface, view, pixel, by_index).0, wet)
             }
             None => by,
         }
@@ -392,7 +393,8 @@ pub fn shade(
     over_scene(inputs, view, |x, y, pixel| {
         let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
-        let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
+        let behind =
+            under_water(settings, &Under::met(inputs, settings, &surface, view, pixel), behind);
         let mirrored = of_scene(inputs, None, settings, &surface, view, &env);
         let off = Off::default();
         let seen = exit(inputs, settings, &surface, view, (x, y), behind, &env, &off);

@@ -442,7 +442,9 @@ fn a_floor_under_water_is_met_between_texels() {
         let ray = ray(x, y);
         let surface = facing(view.ray(x, y) * (-above / ray.y), up, 1.0, 1.0);
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-        let off = bed_offset(&scene.inputs(0), &surface, &view, pixel, (index, &Off::default()));
+        let by = (index, 1.0, &Off::default());
+        let (off, touches) = bed_offset(&scene.inputs(0), &surface, &view, pixel, by);
+        assert_eq!(touches, 1.0, "({x}, {y})");
         // By Snell's law the part along the surface shrinks by the index.
         let (from, unit) = (ray * (-above / ray.y), ray.normalize());
         let level = unit.with_y(0.0) / index;
