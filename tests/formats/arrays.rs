@@ -358,6 +358,16 @@ fn shapes_of_json() {
             p.warnings
         );
     }
+    // Positions keyed by id. With another key they are none.
+    let text = r#"{"7": [1, 2, 3], "12": [4, 5, 6]}"#;
+    let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    let ids = p.ids.expect("ids");
+    let at = |id: u32| p.positions[ids.iter().position(|i| *i == id).expect("the id")];
+    assert_eq!((at(7), at(12), ids.len()), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0], 2));
+    for other in ["-1", "a"] {
+        let text = text.replace("12", other);
+        assert!(read_bytes(text.as_bytes(), Extension::Json).is_err(), "{text}");
+    }
     let text = "[[NaN, 1, 2], [3, Infinity, -Infinity], [5, 6, 7]]";
     let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
     assert_eq!(p.positions[2], [5.0, 6.0, 7.0]);

@@ -2,10 +2,10 @@
 //! "id": 7}, ...]`, or an object of arrays by name.
 //!
 //! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`. In a
-//! flat array the components of vectors follow one another. An object with a single array of particles, `{"particles":
-//! [...]}`, is read as that array. A file with one JSON value per line is read as an array of these. `null`, and
-//! Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the last value, are ignored. Houdini's JSON
-//! geometry begins with `"fileversion"` and is refused.
+//! flat array the components of vectors follow one another. Positions may be keyed by id: `{"7": [x, y, z], ...}`. An
+//! object with a single array of particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per
+//! line is read as an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the
+//! last value, are ignored. Houdini's JSON geometry begins with `"fileversion"` and is refused.
 //!
 //! A file with several frames is a list of such arrays or objects, an object that holds them by name
 //! (`{"frame_1": ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see
@@ -246,6 +246,19 @@ fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> 
         .then(|| std::mem::take(map).into_iter().map(|(_, row)| row).collect())
 }
 
+/// Positions keyed by id, as rows; `None` if any key is not an id or any value is not a position.
+fn by_id(map: &mut Map<String, Value>) -> Option<Vec<Value>> {
+    let position = |value: &Value| {
+        value.as_array().is_some_and(|v| matches!(v.len(), 2 | 3) && v.iter().all(Value::is_number))
+    };
+    let are = map.iter().all(|(key, value)| key.parse::<u32>().is_ok() && position(value));
+    let row = |(id, position): (String, Value)| {
+        let id = id.parse::<u32>().unwrap_or_default().into();
+        Value::Object(Map::from_iter([("id".into(), id), ("position".into(), position)]))
+    };
+    (are && !map.is_empty()).then(|| std::mem::take(map).into_iter().map(row).collect())
+}
+
 /// Interprets an array as vectors, nested or flat.
 fn vectors(name: &str, components: usize, data: Data) -> Result<(usize, Data), ReadError> {
     match components {
@@ -328,7 +341,8 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
             advice: "name it .series, with the files beside it",
         });
     }
-    if let Some(rows) = of_pandas(&mut map, &table.asked) {
+    let rows = of_pandas(&mut map, &table.asked).or_else(|| by_id(&mut map));
+    if let Some(rows) = rows {
         return list(rows, table);
     }
     let known: Vec<&String> = map.keys().filter(|name| table.asked.wants(name)).collect();
