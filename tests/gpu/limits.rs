@@ -15,7 +15,7 @@ use crate::invariants::{exact, packet_bytes, same_drawn, water};
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
 use crate::support::limits::{Claims, claim};
-use crate::support::rig::{Rig, Shot, config, extent, stream};
+use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
 use crate::support::scenes::Random;
 use crate::support::spy;
 
@@ -28,22 +28,27 @@ fn shot() -> Shot {
     shot
 }
 
+/// A spied device that the next claims can be made on, and the picture without claims.
+fn unclaimed(config: &Config) -> (Gpu, Drawn) {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let drawn = Rig::new(&gpu, config).draw(&shot());
+    (gpu, drawn)
+}
+
 /// Draws with `claims`, and with one buffer that contains everything: interleaved streams that
 /// begin at `word`, the count and the packets. `checks` is called for every bound buffer.
 fn claimed(
     name: &str,
+    (gpu, expected): &mut (Gpu, Drawn),
     config: &Config,
     words: &[usize],
     claims: Claims,
     checks: impl Fn(&spy::Bound, u64),
 ) {
-    let mut gpu = Gpu::own();
-    spy::install(&mut gpu);
+    claim(gpu, claims);
     let shot = shot();
-    let expected = Rig::new(&gpu, config).draw(&shot);
-    claim(&mut gpu, claims);
-    let gpu = gpu;
-    let mut rig = Rig::new(&gpu, config);
+    let mut rig = Rig::new(gpu, config);
     let densities = shot.densities.as_deref().expect("they have some");
     let n = shot.positions.len() as u32;
     let ranges: Vec<(u32, u32)> = (0..n).step_by(70).map(|i| (i, 70.min(n - i))).collect();
@@ -75,7 +80,7 @@ fn claimed(
             });
             drop(spy::take_bound());
             let drawn = rig.draw_particles(&shot, &particles);
-            same_drawn(&format!("{name}-{word}-{stride}"), &drawn, &expected);
+            same_drawn(&format!("{name}-{word}-{stride}"), &drawn, expected);
             let bound = spy::take_bound();
             let (all, odd) = (bound.len(), bound.iter().filter(|b| b.offset > 0).count());
             assert!(all > 10 && odd > 2, "it sees {all} buffers, {odd} with an offset");
@@ -94,10 +99,11 @@ fn offsets_are_multiples_of_the_devices_alignment() {
             it.depth_splat = Some(splat);
             it.max_stride = 64;
         });
+        let mut device = unclaimed(&config);
         for alignment in [64, 256] {
             let claims = Claims { offset_alignment: Some(alignment), ..Claims::default() };
             let name = format!("aligned-{alignment}-{splat:?}");
-            claimed(&name, &config, &[0, 1, 13, 63, 64], claims, |bound, _| {
+            claimed(&name, &mut device, &config, &[0, 1, 13, 63, 64], claims, |bound, _| {
                 assert!(bound.offset.is_multiple_of(alignment), "{bound:?}");
             });
         }
@@ -116,13 +122,15 @@ fn bindings_are_no_longer_than_the_device_allows() {
             it.max_particles = max_particles;
             it.max_stride = 64;
         });
+        let mut device = unclaimed(&config);
         for (range, alignment) in [(1 << 13, 256), (5000, 16)] {
             let claims = Claims {
                 offset_alignment: Some(alignment),
                 max_storage_buffer_range: Some(range),
                 ..Claims::default()
             };
-            claimed(&format!("range-{range}-{splat:?}"), &config, &[0, 13], claims, |b, bytes| {
+            let name = format!("range-{range}-{splat:?}");
+            claimed(&name, &mut device, &config, &[0, 13], claims, |b, bytes| {
                 assert!(b.offset.is_multiple_of(alignment), "{b:?}");
                 let storage = b.kind == vk::DescriptorType::STORAGE_BUFFER;
                 assert!(!storage || bytes <= u64::from(range), "{bytes} bytes: {b:?}");
@@ -178,6 +186,7 @@ fn timestamps_that_wrap_are_still_durations() {
         };
         claim(&mut gpu, claims);
         let gpu = gpu;
+        gpu.share_context();
         let mask = u64::MAX >> (64 - bits);
         // The counter wraps before, within and between the scopes.
         for before_the_end in [0, 50, 150, 1_050] {
@@ -224,6 +233,7 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
     let mut gpu = Gpu::own();
     claim(&mut gpu, Claims { max_storage_buffer_range: Some(1 << 17), ..Claims::default() });
     let gpu = gpu;
+    gpu.share_context();
     // 8 bytes per pixel of 120x120 are 115 200, below the limit of 131 072.
     let base = config(extent(120, 120)).with(|it| it.thickness_level = 0);
     drop(Rig::new(&gpu, &base));
@@ -406,20 +416,26 @@ fn limits_are_what_the_shaders_use() {
 fn levels_beside_each_other_smooth_the_same() {
     let mut gpu = Gpu::own();
     let all = gpu.limits();
-    for smoothing in [Smoothing::Fused, Smoothing::Tiles, Smoothing::Query(Gate::VertexCull)] {
-        let config = exact(extent(64, 64)).with(|it| {
-            it.smoothing_level = 0;
-            it.sheets = 2;
-            it.coarsening = 3;
-            it.max_iterations = 8;
-            it.smoothing = Some(smoothing);
-        });
-        let shot = water(extent(64, 64));
-        gpu.claims = None;
-        let expected = Rig::new(&gpu, &config).draw(&shot);
-        let narrow = vk::PhysicalDeviceLimits { max_image_dimension2_d: 96, ..all };
-        claim(&mut gpu, Claims { limits: Some(narrow), ..Claims::default() });
-        same_drawn(&format!("{smoothing:?}"), &Rig::new(&gpu, &config).draw(&shot), &expected);
+    let ways = [Smoothing::Fused, Smoothing::Tiles, Smoothing::Query(Gate::VertexCull)];
+    let shot = water(extent(64, 64));
+    let draw = |gpu: &Gpu| {
+        gpu.share_context();
+        ways.map(|smoothing| {
+            let config = exact(extent(64, 64)).with(|it| {
+                it.smoothing_level = 0;
+                it.sheets = 2;
+                it.coarsening = 3;
+                it.max_iterations = 8;
+                it.smoothing = Some(smoothing);
+            });
+            Rig::new(gpu, &config).draw(&shot)
+        })
+    };
+    let expected = draw(&gpu);
+    let narrow = vk::PhysicalDeviceLimits { max_image_dimension2_d: 96, ..all };
+    claim(&mut gpu, Claims { limits: Some(narrow), ..Claims::default() });
+    for ((way, drawn), expected) in ways.iter().zip(draw(&gpu)).zip(&expected) {
+        same_drawn(&format!("{way:?}"), &drawn, expected);
     }
     // If they have no room at all, the error names the extent. At half the resolution they have
     // room.

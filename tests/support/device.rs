@@ -44,6 +44,8 @@ pub struct Gpu {
     pub claims: Option<ash::Instance>,
     /// Whether the test leaks objects on purpose.
     pub leaks: bool,
+    /// The context of a device of the test's own, if its renderers share one.
+    own_context: Mutex<Option<Context>>,
     _lock: Option<MutexGuard<'static, ()>>,
     _watch: Arc<Watch>,
     _turn: Turn,
@@ -181,6 +183,7 @@ impl Gpu {
             other_allocator: None,
             claims: None,
             leaks: false,
+            own_context: Mutex::new(None),
             _lock: lock,
             _watch: Watch::begin(),
             _turn: turn,
@@ -232,18 +235,33 @@ impl Gpu {
     }
 
     /// A host's context. Tests on a shared device share one; a test with its own device gets a new
-    /// one.
+    /// one unless it called [`share_context`](Self::share_context).
     pub fn context(&self, frames_in_flight: u32) -> Context {
-        // SAFETY: tests keep their device until everything made from it has been destroyed.
-        let new = || unsafe { Context::new(&self.host(frames_in_flight)) }.expect("a context");
-        match &self.device {
-            Some(Held::Shared(_, shared)) => {
-                let mut context = shared.context.lock().unwrap_or_else(PoisonError::into_inner);
-                let context = context.0.get_or_insert_with(new);
-                context.with_frames_in_flight(frames_in_flight).expect("1 to 8")
-            }
-            _ => new(),
+        let shared =
+            |context: &Context| context.with_frames_in_flight(frames_in_flight).expect("1 to 8");
+        if let Some(Held::Shared(_, of_device)) = &self.device {
+            let mut context = of_device.context.lock().unwrap_or_else(PoisonError::into_inner);
+            return shared(context.0.get_or_insert_with(|| self.new_context(frames_in_flight)));
         }
+        let own = self.own_context.lock().unwrap_or_else(PoisonError::into_inner);
+        own.as_ref().map_or_else(|| self.new_context(frames_in_flight), shared)
+    }
+
+    fn new_context(&self, frames_in_flight: u32) -> Context {
+        // SAFETY: tests keep their device until everything made from it has been destroyed.
+        unsafe { Context::new(&self.host(frames_in_flight)) }.expect("a context")
+    }
+
+    /// On a device of the test's own: renderers share a new context from now on, and so do not
+    /// compile pipelines again. It sees the spy, claims and allocator that are set now.
+    pub fn share_context(&self) {
+        let own = Some(self.new_context(1));
+        *self.own_context.lock().unwrap_or_else(PoisonError::into_inner) = own;
+    }
+
+    /// On a device of the test's own: each renderer gets a context of its own from now on.
+    pub fn drop_context(&self) {
+        *self.own_context.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     /// Moves the device out of the fixture, for tests with a device of their own.
@@ -335,6 +353,7 @@ impl Deref for Gpu {
 impl Drop for Gpu {
     fn drop(&mut self) {
         let failed = std::thread::panicking();
+        self.drop_context();
         if self.device.is_none() {
             return;
         }

@@ -53,6 +53,7 @@ fn a_device_of_vulkan_1_2_draws_the_same() {
     let options = whitewater::headless::DeviceOptions { vulkan_1_2: true, ..Default::default() };
     let mut old = Gpu::own_with(&options);
     old.leaks = false;
+    old.share_context();
     assert!(!old.enabled.synchronization2);
     let plain = config(size).with(|it| it.sheets = 2);
     for config in [
