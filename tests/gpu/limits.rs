@@ -28,7 +28,7 @@ fn shot() -> Shot {
     shot
 }
 
-/// A spied device that the next claims can be made on, and the picture without claims.
+/// A spied device without claims, and the picture that it draws.
 fn unclaimed(config: &Config) -> (Gpu, Drawn) {
     let mut gpu = Gpu::own();
     spy::install(&mut gpu);

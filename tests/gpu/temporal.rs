@@ -472,7 +472,7 @@ fn foam_comes_and_goes_without_a_pop() {
         let frames = if crate::support::slow() { 100 } else { 50 };
         let [slow, fast] = [frames, frames / 5].map(|frames| steps(&mut rig, frames, WIDTH, of));
         let found = format!(
-            "{name}, level {level}: {:.4} of {:.4} in a step of {frames}, {:.4} in five",
+            "{name}, level {level}: {:.4} of {:.4} in one of {frames} steps, {:.4} in five",
             slow.0, slow.1, fast.0
         );
         println!("{found}");
