@@ -273,13 +273,10 @@ pub struct Config {
     /// `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and 8.7 MiB for the
     /// textures.
     pub shore: Option<ShoreConfig>,
-    /// Resolution at which the pass `noise` draws the surface noise of the baseline (van der Laan et al. 2009), which
-    /// is meant only for comparisons: 0 full, 1 half, 2 quarter, 3 eighth. With `None`, the default, there is no such
-    /// noise. It takes 16 more bytes per particle, and 4 per texel.
-    #[cfg(feature = "diagnostics")]
+    /// Resolution at which the pass `noise` draws ripples finer than the particles ([`Settings::noise`]): 0 full, 1
+    /// half, 2 quarter, 3 eighth. With `None`, the default, there are no such ripples. They take 16 more bytes per
+    /// particle, and 4 per texel.
     pub noise: Option<u32>,
-    #[cfg(not(feature = "diagnostics"))]
-    pub(crate) noise: Option<u32>,
     /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. With `None`,
     /// the default, the scene casts no shadow on water and foam.
     pub shadow: Option<Shadows>,
@@ -516,8 +513,8 @@ pub struct Particles {
     /// particles are at rest.
     pub velocities: Option<Stream>,
     /// Ids that identify particles from frame to frame (u32), for the noise in foam and the droplets of spray. Read
-    /// only with [`Config::surface_foam`] or [`Config::spray`], and with `Config.noise` (feature `diagnostics`)
-    /// for the surface noise. With `None` the index is used.
+    /// only with [`Config::surface_foam`] or [`Config::spray`], and with [`Config::noise`] for
+    /// the surface noise. With `None` the index is used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
@@ -1249,11 +1246,8 @@ pub struct Settings {
     pub shore: ShoreSettings,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
-    /// The baseline's surface noise.
-    #[cfg(feature = "diagnostics")]
+    /// Surface noise: ripples finer than the particles.
     pub noise: SurfaceNoiseSettings,
-    #[cfg(not(feature = "diagnostics"))]
-    pub(crate) noise: SurfaceNoiseSettings,
     /// Sun and sky light.
     pub light: Light,
     /// How many layers the composite contains, for debug views. Default: all.

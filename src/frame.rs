@@ -466,7 +466,10 @@ impl FrameUniforms {
                 (1 << noise_level) as f32,
                 ripples.cells / radius,
             ],
-            noise_color: foam_color(ripples.color, light),
+            noise_color: {
+                let [r, g, b, _] = foam_color(ripples.color, light);
+                [r, g, b, ripples.airborne]
+            },
             whitewater: [whitewater.radius, near, far, f32::from(u8::from(falloff.is_some()))],
             whitewater_below: falloff.unwrap_or([1.0; 4]),
             whitewater_light: [

@@ -49,7 +49,7 @@
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, for culling | storage buffer, aligned offset | as above |
 //! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as above | as above |
-//! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with `Config.noise` (feature `diagnostics`) | as above | as above |
+//! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with [`Config::noise`] | as above | as above |
 //! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`SurfaceFoamState::foam`]) | as above | as above |
 //! | `whitewater.positions` | with `Config.whitewater`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
 //! | `whitewater.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |

@@ -61,7 +61,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 motion;        // seconds since the previous frame per spacing; spacing
     vec4 noise;         // height of 1 in scene units, foam; falloff per scene unit below the surface, half-axis
     vec4 noise_image;   // width, height of the surface noise; size of its texels in pixels; cells per scene unit
-    vec4 noise_color;   // radiance of its foam
+    vec4 noise_color;   // radiance of its foam; fraction of the height that water on the scene lacks
     vec4 whitewater;       // default radius of a whitewater particle; near and far end of the cross-fade to blobs, 0: none; 1 = the paper's falloff below the surface
     vec4 whitewater_below; // that falloff: scene units, exponents
     vec4 whitewater_light; // log2 of the intensity's half, its exponent; 1 = the paper's mixing; radius of a blob relative to its particle

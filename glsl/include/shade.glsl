@@ -254,13 +254,6 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, position, n);
-    if (NOISE == 1u) {
-        vec3 px;
-        vec3 py;
-        surface_tangents(surface, slope, px, py);
-        n = rippled(n, px, py, ripple.yz);
-    }
-
     // Thickness is limited to the room before the scene, because sprites are wider than the particles that
     // they stand for. So water ends where it meets the scene, and does not refract what it touches.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
@@ -268,6 +261,16 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     bool ends = scene > 0.0 && surface.z < 0.5 * EMPTY;
     float room = max(scene - surface.z, 0.0);
     t = ends ? min(t, room) : t;
+
+    // Fraction to which the scene behind is under this water.
+    float filled = t / max(room, 1.0e-6 * frame.particle.y);
+    float wet = ends && frame.bed.w > 0.0 ? smoothstep(FILLED.x, FILLED.y, filled) : 0.0;
+    if (NOISE == 1u) {
+        vec3 px;
+        vec3 py;
+        surface_tangents(surface, slope, px, py);
+        n = rippled(n, px, py, (1.0 - frame.noise_color.w * wet) * ripple.yz);
+    }
 
     n = with_wavelets(n, position, t);
 
@@ -278,8 +281,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     float away = length(position);
     vec3 v = -position / away;
     sheet.path = t * away / surface.z;
-    float filled = t / max(room, 1.0e-6 * frame.particle.y);
-    sheet.wet = ends && frame.bed.w > 0.0 ? smoothstep(FILLED.x, FILLED.y, filled) : 0.0;
+    sheet.wet = wet;
     vec3 up = frame.up.xyz * mat3(frame.world);
     sheet.down = sheet.path * max(dot(v, up), 0.0);
     sheet.path *= mix(1.0, bent_way(n, v, up), sheet.wet);

@@ -47,12 +47,11 @@ pub(crate) use cull::{
 pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 #[cfg(feature = "diagnostics")]
-pub use settings::{
-    Amplitude, Bed, Compositing, DebugView, Gate, Rule, Smoothing, Splat, SurfaceNoiseSettings,
-};
+pub use settings::{Amplitude, Bed, Compositing, DebugView, Gate, Rule, Smoothing, Splat};
 pub use settings::{
     Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium, Shading, ShadowFilter, Shadows,
-    SpraySettings, SurfaceFoamSettings, WaterSettings, Wavelets, WeberSettings,
+    SpraySettings, SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, Wavelets,
+    WeberSettings,
 };
 pub(crate) use shape::{Crowd, bytes_bound as shape_bytes, sets as shape_sets};
 pub(crate) use surface_foam::word_bytes as foam_bytes;

@@ -985,13 +985,14 @@ impl SpraySettings {
     }
 }
 
-/// Appearance of the baseline's surface noise. No effect without [`Config::noise`](crate::Config).
+/// Appearance of the surface noise (van der Laan et al. 2009): ripples finer than the particles, which move with them.
+/// No effect without [`Config::noise`](crate::Config::noise).
 ///
-/// Each particle has its own gradient noise, which moves with it. The sum of these noises is a height on the front
-/// surface of the water, and its slope turns the normals. It is also the baseline's foam: grey where the height is
-/// far above or below 0.
+/// Each particle has its own gradient noise. The sum of these noises is a height on the front surface of the water,
+/// and its slope turns the normals. The default is the publication's surface, on all water;
+/// [`AIRBORNE`](Self::AIRBORNE) is for water in the air only. The publication's foam is grey where the height is far
+/// above or below 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 #[non_exhaustive]
 pub struct SurfaceNoiseSettings {
     /// Height that a noise value of 1 adds to the water's surface, in drawn radii, [0, 16], default 0.336, 0 = flat.
@@ -1004,7 +1005,12 @@ pub struct SurfaceNoiseSettings {
     pub size: f32,
     /// Number of cells of a particle's noise per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Amount of the baseline's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's
+    /// How much less height there is where the water lies on the scene, so that the scene behind is under water, [0, 1],
+    /// default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the noise, because a
+    /// solver's particles are coarsest there: a pool keeps the simulated waves alone. No effect with
+    /// [`Bed::Source`].
+    pub airborne: f32,
+    /// Amount of the publication's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's
     /// magnitude. An amount of 1 or more is full foam. [0, 64], default 0: no such foam.
     pub foam: f32,
     /// Albedo of that foam, linear RGB, 0 to 1, default grey 0.5.
@@ -1013,16 +1019,44 @@ pub struct SurfaceNoiseSettings {
 
 impl Default for SurfaceNoiseSettings {
     fn default() -> Self {
-        Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 0.0, color: [0.5; 3] }
+        Self {
+            weight: 0.336,
+            falloff: 2.0,
+            size: 2.0,
+            cells: 1.0,
+            airborne: 0.0,
+            foam: 0.0,
+            color: [0.5; 3],
+        }
     }
 }
 
 impl SurfaceNoiseSettings {
+    /// Ripples on water in the air (jets, sheets, drops) and none on water that lies on the scene. Weight and number
+    /// of cells are chosen by eye: they break up the plain reflections of a jet, and what is seen through it stays in
+    /// one piece.
+    pub const AIRBORNE: Self = Self {
+        weight: 0.33,
+        falloff: 2.0,
+        size: 2.0,
+        cells: 0.7,
+        airborne: 1.0,
+        foam: 0.0,
+        color: [0.5; 3],
+    };
+
     #[cfg(feature = "diagnostics")]
-    /// The baseline's surface noise (van der Laan et al. 2009) with its foam. The paper gives no strength of this
-    /// foam; a strength `foam` of 1 makes it visible.
-    pub const SOURCE: Self =
-        Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };
+    /// Noise on all water, with the publication's foam. The paper gives no strength of this foam; a strength `foam` of
+    /// 1 makes it visible.
+    pub const SOURCE: Self = Self {
+        weight: 0.336,
+        falloff: 2.0,
+        size: 2.0,
+        cells: 1.0,
+        airborne: 0.0,
+        foam: 1.0,
+        color: [0.5; 3],
+    };
 
     /// Checks the ranges; the message names the field.
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
@@ -1030,6 +1064,7 @@ impl SurfaceNoiseSettings {
         range("Settings.noise.falloff", self.falloff, 0.0, 64.0)?;
         range("Settings.noise.size", self.size, 1.0e-3, 8.0)?;
         range("Settings.noise.cells", self.cells, 1.0e-3, 16.0)?;
+        range("Settings.noise.airborne", self.airborne, 0.0, 1.0)?;
         range("Settings.noise.foam", self.foam, 0.0, 64.0)?;
         for color in self.color {
             range("Settings.noise.color", color, 0.0, 1.0)?;

@@ -131,6 +131,10 @@ pub fn noise_look(shot: &Shot, image: &Image<f32>) -> Look {
             .find(|l| shot.size.width.div_ceil(1 << l) as usize == image.width)
             .expect("a level"),
         height: f64::from(look.weight) * f64::from(shot.settings.water.radius()),
+        airborne: match shot.settings.water.bed {
+            Bed::Submerged => f64::from(look.airborne),
+            Bed::Source => 0.0,
+        },
         foam: f64::from(look.foam),
         color: [0, 1, 2]
             .map(|c| f64::from(look.color[c]) * f64::from(light[c]) * std::f64::consts::FRAC_1_PI),
@@ -546,7 +550,7 @@ fn turbid_media_are_exact() {
 
 /// Water over a bed that slopes away behind it; the fraction to which the bed is under water goes
 /// from 1 to 0.
-fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
+pub fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
     let mut shot = shot(size, lens);
     shot.scene_depth(|x, _| Some(4.6 + 0.02 * f64::from(x)));
     shot

@@ -2,10 +2,10 @@
 //! with this noise.
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::water::{Rule, Shading, SurfaceNoiseSettings};
+use whitewater::water::{Bed, Rule, Shading, SurfaceNoiseSettings};
 use whitewater::{Camera, Config};
 
-use crate::composite::{FLAT, SKY, Sky, check, check_told};
+use crate::composite::{FLAT, SKY, Sky, check, check_told, on_bed};
 use crate::harness::fails;
 use crate::reduce::wide;
 use crate::reference::Image;
@@ -299,6 +299,43 @@ fn the_picture_with_noise_is_the_twins() {
             }
         }
     }
+}
+
+/// Noise that water on the scene lacks, over a bed that slopes away, with one sheet.
+#[test]
+fn noise_in_the_air_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &noisy(size, 1).with(|it| it.coarsening = 0));
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let of = |lens: Lens, airborne: f32| {
+        let mut case = Noisy::of(on_bed(size, lens));
+        *case.look() = SurfaceNoiseSettings::default().with(|it| it.airborne = airborne);
+        case
+    };
+    for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+        let pictures = [0.0, 0.6, 1.0].map(|airborne| {
+            let case = of(lens, airborne);
+            check(&format!("noise-air-{lens:?}-{airborne}"), &mut rig, &case.shot, Sky::Even);
+            case.draw(&mut rig).output.data
+        });
+        assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "{lens:?}");
+        // A bed that is never under water takes nothing away.
+        let mut dry = |airborne: f32| {
+            let mut case = of(lens, airborne);
+            case.shot.settings.water.bed = Bed::Source;
+            case.draw(&mut rig).output.data
+        };
+        assert_eq!(dry(0.0), dry(1.0), "{lens:?}");
+    }
+    // The comparison detects a change by a hundredth.
+    let case = of(Lens::Standard, 0.5);
+    let mut told = case.clone();
+    told.look().airborne *= 1.01;
+    let seen = fails(|| {
+        check_told("planted-noise-air", &mut rig, &case.shot, &told.shot, Sky::Even, |_| ());
+    });
+    assert!(seen, "airborne off by a hundredth");
 }
 
 /// A change of the look by a hundredth is detected in the picture.

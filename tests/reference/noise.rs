@@ -158,6 +158,8 @@ pub struct Look {
     pub level: u32,
     /// Height in world units of a noise of 1.
     pub height: f64,
+    /// Fraction of the height that is missing where the scene is under this water.
+    pub airborne: f64,
     /// Fraction of the foam's colour that a noise of 1 adds, at most all of it.
     pub foam: f64,
     /// Radiance of the foam's colour.
@@ -194,7 +196,7 @@ impl Ripples<'_> {
         threshold: f64,
         margin: &mut f64,
     ) -> Ripple {
-        let Look { level, height, foam, color } = self.look;
+        let Look { level, height, foam, color, .. } = self.look;
         let edge = f64::from(1 << level);
         let texel = |i: isize, j: isize| {
             let n = self.image.checked(i, j)?;
@@ -240,9 +242,10 @@ impl Ripples<'_> {
 }
 
 impl Ripple {
-    /// The normal of a surface with noise, from the tangents per pixel.
-    pub fn turn(&self, normal: DVec3, [x, y]: [DVec3; 2]) -> DVec3 {
-        let turned = (x + self.height.x * normal).cross(y + self.height.y * normal);
+    /// The normal of a surface with this part of the noise, from the tangents per pixel.
+    pub fn turn(&self, part: f64, normal: DVec3, [x, y]: [DVec3; 2]) -> DVec3 {
+        let height = part * self.height;
+        let turned = (x + height.x * normal).cross(y + height.y * normal);
         turned.normalize() * turned.dot(normal).signum()
     }
 }
@@ -262,10 +265,10 @@ mod tests {
             let (step, slope) = (0.03, 0.5);
             let height = DVec2::new(slope * step, 0.0);
             let ripple = Ripple { height, ..Ripple::default() };
-            let found = ripple.turn(n, [tangent * step, other * 0.01]);
+            let found = ripple.turn(1.0, n, [tangent * step, other * 0.01]);
             let expected = (n - slope * tangent).normalize();
             assert!((found - expected).length() < 1e-12, "{found} {expected}");
-            let back = ripple.turn(n, [tangent * step, other * -0.01]);
+            let back = ripple.turn(1.0, n, [tangent * step, other * -0.01]);
             assert!((back - expected).length() < 1e-12, "{back} of a mirrored image");
         }
     }

@@ -424,6 +424,8 @@ impl<'a> Surfaces<'a> {
         let ray = self.view.ray(x, y);
         let d = slope / (self.view.slope_step() * texel);
         let normal = DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize();
+        let room = (self.inputs.scene(x, y) - z).max(0.0);
+        let thickness = full.min(room);
         let mut ripple = Ripple::default();
         let mut turned = normal;
         if let (Some(depth), Some(noise)) = (depth, &self.inputs.noise) {
@@ -432,12 +434,11 @@ impl<'a> Surfaces<'a> {
             let along = |step: DVec3, slope: f64| step * z + ray * slope / texel;
             let step = self.view.slope_step();
             let tangents = [along(DVec3::X * step.x, slope.x), along(DVec3::Y * step.y, slope.y)];
-            turned = ripple.turn(normal, tangents);
+            let wet = if room > 0.0 { smoothstep(0.5, 0.7, thickness / room) } else { 0.0 };
+            turned = ripple.turn(1.0 - noise.look.airborne * wet, normal, tangents);
         }
         let parts =
             Parts { case, smooth, sphere, full, drop, borrowed: false, found, mixed: 0.0, margin };
-        let room = (self.inputs.scene(x, y) - z).max(0.0);
-        let thickness = full.min(room);
         let torn = thickness.min(2.0 * spacing);
         let lens = torn + (thickness - torn) * found;
         let slope = slope / texel;

@@ -186,10 +186,15 @@ fn moved(offset: [Rounded; 2], view: &View) -> f64 {
 
 /// A normal tilted by the noise. Its differences are weighted means like those of a slope, with one
 /// more product; the height of 1 takes two products.
-fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) -> [Rounded; 3] {
+fn turned(
+    n: [Rounded; 3],
+    [px, py]: [[Rounded; 3]; 2],
+    ripple: &Ripple,
+    part: Rounded,
+) -> [Rounded; 3] {
     let height = |i: usize| {
         let (v, rises) = (ripple.height[i], ripple.rises[i]);
-        Rounded { v, e: U * (16.0 * rises + 12.0 * v.abs()) }
+        part * Rounded { v, e: U * (16.0 * rises + 12.0 * v.abs()) }
     };
     let (along_x, along_y) = (cross(py, n), cross(n, px));
     let area = dot(px, along_x);
@@ -251,11 +256,17 @@ fn lit(
     if dot(n, position).v > 0.0 {
         n = n.map(|c| -c);
     }
+    let wet = match &settings.bed {
+        Some(_) => wet(t, room, limited && !near),
+        None => exact(0.0),
+    };
     let ripple = &surface.ripple;
     if ripple.height != DVec2::ZERO {
         // Tangents that span a full pixel.
         let part = exact(1.0 / texel);
-        n = turned(n, px.map(|c| c * part), py.map(|c| c * part), ripple);
+        let tangents = [px, py].map(|p| p.map(|c| c * part));
+        let airborne = inputs.noise.map_or(0.0, |noise| noise.look.airborne);
+        n = turned(n, tangents, ripple, exact(1.0) - exact(airborne) * wet);
     }
     let away = dot(position, position).sqrt();
     let v = position.map(|c| -c / away);
@@ -263,10 +274,7 @@ fn lit(
     let up = view.view.transform_vector3(DVec3::Y).to_array();
     let up = up.map(|v| Rounded { v, e: 16.0 * U });
     let down = straight * dot(v, up).clamp(0.0, f64::MAX);
-    let (wet, way) = match &settings.bed {
-        Some(bed) => (wet(t, room, limited && !near), bent_way(bed, n, v, up)),
-        None => (exact(0.0), exact(1.0)),
-    };
+    let way = settings.bed.as_ref().map_or(exact(1.0), |bed| bent_way(bed, n, v, up));
     let path = straight * mix(exact(1.0), way, wet);
     let torn = exact(2.0) * spacing;
     let torn = if t.v < torn.v { t } else { torn };

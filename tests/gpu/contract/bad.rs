@@ -193,6 +193,7 @@ fn spoils() -> Vec<Spoil> {
         ("falloff of noise", "Settings.noise.falloff", |g| g.settings.noise.falloff = -1.0),
         ("size of noise", "Settings.noise.size", |g| g.settings.noise.size = 0.0),
         ("cells", "Settings.noise.cells", |g| g.settings.noise.cells = 17.0),
+        ("noise in the air", "Settings.noise.airborne", |g| g.settings.noise.airborne = 1.5),
         ("grey", "Settings.noise.foam", |g| g.settings.noise.foam = -0.1),
         ("grey's color", "Settings.noise.color", |g| g.settings.noise.color[0] = 1.5),
         ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),

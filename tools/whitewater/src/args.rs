@@ -398,12 +398,14 @@ pub struct DrawArgs {
     /// however dense. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
-    /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or
-    /// foam (normals and grey foam)
+    /// Surface noise, finer than the particles and moving with them: air (on water in the air, such as jets and
+    /// sheets), surface (on all water), foam (on all water, with grey foam), or none [default: air; none with --look
+    /// thesis]
     ///
-    /// The complete baseline is --noise foam --rule fixed:40 --surface-foam none.
-    #[arg(long, value_enum, default_value_t = NoiseArg::None)]
-    pub noise: NoiseArg,
+    /// The noise is that of van der Laan et al. 2009. Their complete method, for comparison, is --noise foam --rule
+    /// fixed:40 --surface-foam none.
+    #[arg(long, value_enum)]
+    pub noise: Option<NoiseArg>,
     /// Shadows: all (scene, water and foam, with caustics), scene (the scene's shadows on foam and spray), or none
     /// [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
@@ -667,14 +669,16 @@ pub enum SprayArg {
     None,
 }
 
-/// What the baseline's surface noise changes.
+/// What the surface noise changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum NoiseArg {
     /// Nothing.
     None,
-    /// The surface's normals.
+    /// The normals of water in the air.
+    Air,
+    /// The normals of all water.
     Surface,
-    /// The normals, and grey foam.
+    /// The normals of all water, and grey foam.
     Foam,
 }
 

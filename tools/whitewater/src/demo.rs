@@ -58,7 +58,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     stage::furnish(&mut scene, eye, SetArg::Pool);
     environment.light_scene(&mut scene);
     let mut settings = file.look(SPACING, environment.light());
-    settings.noise = session::noise(&args.draw);
+    settings.noise = session::noise(&args.draw, &file);
     if !file.is_thesis() {
         foam_of_caches(&mut settings.surface_foam, SPACING);
         let bounds = Bounds::of_bulk(&particles.positions);

@@ -199,7 +199,7 @@ pub fn look(
         }
         settings.water.rest_density = density;
     }
-    settings.noise = session::noise(&args.draw);
+    settings.noise = session::noise(&args.draw, &file);
     // If there are few particles, spray would leave no water to see.
     let few = probes.spacing().is_none();
     let lone = args.draw.spray.is_none() && few;

@@ -175,11 +175,17 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
     }
 }
 
-/// Default settings of the baseline's noise.
-pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
-    match args.noise {
+/// The surface noise that the arguments ask for.
+pub fn noise_of(args: &DrawArgs, file: &SettingsFile) -> NoiseArg {
+    args.noise.unwrap_or(if file.is_thesis() { NoiseArg::None } else { NoiseArg::Air })
+}
+
+/// Default settings of the surface noise.
+pub fn noise(args: &DrawArgs, file: &SettingsFile) -> SurfaceNoiseSettings {
+    match noise_of(args, file) {
         NoiseArg::Foam => SurfaceNoiseSettings::SOURCE,
         NoiseArg::None | NoiseArg::Surface => SurfaceNoiseSettings::default(),
+        NoiseArg::Air => SurfaceNoiseSettings::AIRBORNE,
     }
 }
 

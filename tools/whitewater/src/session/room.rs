@@ -5,7 +5,7 @@ use whitewater::headless::{COLOR_FORMAT, Headless};
 use whitewater::water::{Kernels, Rule, Shading};
 use whitewater::{Config, DeviceSupport, WhitewaterConfig};
 
-use super::{Memory, Session};
+use super::{Memory, Session, noise_of};
 use crate::args::{NoiseArg, ShadowArg};
 use crate::environment::{Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
@@ -113,7 +113,7 @@ impl Session<'_> {
         });
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
         // Half the resolution of the picture, measured without supersampling.
-        config.noise = (args.noise != NoiseArg::None).then_some(1);
+        config.noise = (noise_of(args, &self.look.file) != NoiseArg::None).then_some(1);
         let shadows = self.shadows();
         config.shadow = (shadows != ShadowArg::None).then(|| self.look.file.shadows());
         config.light_map_size = (shadows == ShadowArg::All).then(|| light_texels(width));

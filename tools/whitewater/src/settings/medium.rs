@@ -146,6 +146,7 @@ impl Liquid {
         }
         if self.thick {
             settings.water.wavelets.slope = 0.0;
+            settings.noise.weight *= 1.0 - settings.noise.airborne;
         }
         if let Some([much, little]) = self.foam {
             settings.surface_foam.front_color = much;
@@ -193,12 +194,14 @@ mod tests {
         // Viscous liquids have no small waves.
         let mut rough = Settings::default();
         rough.water.wavelets.slope = 0.1;
-        let slope = |name: &str| {
+        (rough.noise.weight, rough.noise.airborne) = (0.3, 1.0);
+        let small = |name: &str| {
             let mut settings = rough.clone();
             name.parse::<MediumName>().unwrap().liquid().put(&mut settings);
-            settings.water.wavelets.slope
+            (settings.water.wavelets.slope, settings.noise.weight)
         };
-        assert_eq!(["lake", "beer", "honey", "lava"].map(slope), [0.1, 0.1, 0.0, 0.0]);
+        let found = ["lake", "beer", "honey", "lava"].map(small);
+        assert_eq!(found, [(0.1, 0.3), (0.1, 0.3), (0.0, 0.0), (0.0, 0.0)]);
         // Foam of beer is cream, of blood pink, of lava dark.
         let [r, g, b] = of("beer").surface_foam.front_color;
         assert!(r > g && g > b && b > 0.5);

@@ -429,7 +429,15 @@ impl ShadowTable {
 table! {
     /// Table `[noise]`.
     NoiseTable of SurfaceNoiseSettings
-    keys { weight: f32, falloff: f32, size: f32, cells: f32, foam: f32, color: [f32; 3] }
+    keys {
+        weight: f32,
+        falloff: f32,
+        size: f32,
+        cells: f32,
+        airborne: f32,
+        foam: f32,
+        color: [f32; 3],
+    }
     optional {}
     not {}
     beside {}

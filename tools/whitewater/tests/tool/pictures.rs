@@ -236,7 +236,9 @@ fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
     folder.particles("a.ply", block(8));
     folder.text("flat.toml", "[noise]\nweight = 0.0\nfoam = 0.0\n");
     for (name, more) in [
-        ("none", ""),
+        ("none", "--noise none"),
+        ("thesis", "--look thesis"),
+        ("air", ""),
         ("surface", "--noise surface"),
         ("foam", "--noise foam"),
         ("flat", "--noise foam --settings flat.toml"),
@@ -245,13 +247,16 @@ fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
         let command = format!("render a.ply -o {name}.exr {SMALL} {FRONT} {more} {validate}");
         folder.run(&command).ok();
     }
-    let [none, surface, foam, flat] =
-        ["none", "surface", "foam", "flat"].map(|name| folder.picture(&format!("{name}.exr")));
-    assert!(none.channel("water.noise").is_none());
+    let [none, thesis, air, surface, foam, flat] =
+        ["none", "thesis", "air", "surface", "foam", "flat"]
+            .map(|name| folder.picture(&format!("{name}.exr")));
+    assert!(none.channel("water.noise").is_none() && thesis.channel("water.noise").is_none());
     let noise = surface.channel("water.noise").unwrap();
     assert!(noise.iter().any(|n| n.abs() > 0.1) && noise.contains(&0.0));
-    let [none, surface, foam, flat] = [&none, &surface, &foam, &flat].map(|p| p.rgb().unwrap());
+    let [none, air, surface, foam, flat] =
+        [&none, &air, &surface, &foam, &flat].map(|p| p.rgb().unwrap());
     assert!(none == flat && none != surface && surface != foam);
+    assert!(none != air && air != surface);
 }
 
 #[test]
