@@ -96,42 +96,27 @@ impl Tracer {
             directions: directions(RAYS),
         };
         tracer.nodes.push(Node { low: Vec3::ZERO, high: Vec3::ZERO, first: 0, count: 0 });
-        tracer.build(0, 0, tracer.triangles.len());
+        tracer.build(0, 0, 0, tracer.triangles.len());
         tracer
     }
 
-    fn build(&mut self, node: usize, first: usize, end: usize) {
+    /// Builds the nodes below `node`, at a depth of `level`, for a part of the triangles.
+    fn build(&mut self, node: usize, level: u32, first: usize, end: usize) {
         let part = &mut self.triangles[first..end];
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for t in part.iter() {
-            for at in [t.corner, t.corner + t.edges[0], t.corner + t.edges[1]] {
-                low = low.min(at);
-                high = high.max(at);
-            }
-        }
-        let leaf = Node { low, high, first: first as u32, count: (end - first) as u32 };
-        if end - first <= 4 {
-            self.nodes[node] = leaf;
+        let Bounds { low, high } = Bounds::of(part);
+        if part.len() <= 4 {
+            self.nodes[node] = Node { low, high, first: first as u32, count: part.len() as u32 };
             return;
         }
-        let size = high - low;
-        let axis = if size.x >= size.max_element() {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let middle = part.len() / 2;
-        let key = |t: &Triangle| t.corner[axis] + (t.edges[0][axis] + t.edges[1][axis]) / 3.0;
-        part.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)));
+        let middle = if level < CHOSEN { cut(part) } else { None };
+        let middle = middle.unwrap_or_else(|| halve(part, (high - low).max_position()));
         let child = self.nodes.len();
         let empty = || Node { low, high, first: 0, count: 0 };
         self.nodes.push(empty());
         self.nodes.push(empty());
         self.nodes[node] = Node { low, high, first: child as u32, count: 0 };
-        self.build(child, first, first + middle);
-        self.build(child + 1, first + middle, end);
+        self.build(child, level + 1, first, first + middle);
+        self.build(child + 1, level + 1, first + middle, end);
     }
 
     /// The nearest hit; with `any`, the first hit found.
@@ -143,7 +128,7 @@ impl Tracer {
     fn trace_to(&self, reach: f32, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         let inverse = along.recip();
         let mut best: Option<(f32, usize)> = None;
-        // Each level halves the triangles, so 64 levels are never reached.
+        // From a depth of CHOSEN on each level halves the triangles, so 64 levels are never reached.
         let mut stack = [0u32; 64];
         let mut depth = 1;
         while depth > 0 && !self.triangles.is_empty() {
@@ -413,7 +398,97 @@ impl Around {
     }
 }
 
+/// Depth of the tree from which on a node is halved instead of cut where it is best, so that the stack of a ray is
+/// deep enough for any scene.
+const CHOSEN: u32 = 36;
+/// Intervals of an axis between which a node may be cut.
+const BINS: usize = 12;
+
+/// A box.
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+
+    fn of(part: &[Triangle]) -> Self {
+        part.iter().fold(Self::EMPTY, |all, t| all.with(t.bounds()))
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Half the surface; 0 of nothing.
+    fn area(self) -> f32 {
+        let Vec3 { x, y, z } = (self.high - self.low).max(Vec3::ZERO);
+        x * y + y * z + z * x
+    }
+}
+
+/// Sorts triangles into two groups with the least cost by the surface area heuristic (MacDonald and Booth 1990):
+/// the sum over the groups of number times surface. Returns how many are in the first group; `None` if all centres
+/// are in one spot.
+fn cut(part: &mut [Triangle]) -> Option<usize> {
+    let low = part.iter().fold(Vec3::INFINITY, |low, t| low.min(t.centre()));
+    let high = part.iter().fold(Vec3::NEG_INFINITY, |high, t| high.max(t.centre()));
+    let scale = Vec3::splat(BINS as f32) / (high - low);
+    let bin = |t: &Triangle, axis: usize| {
+        (((t.centre() - low)[axis] * scale[axis]) as usize).min(BINS - 1)
+    };
+    let mut best: Option<(f32, usize, usize)> = None;
+    for axis in (0..3).filter(|axis| high[*axis] > low[*axis]) {
+        let mut bins = [(Bounds::EMPTY, 0); BINS];
+        for t in &*part {
+            let (bounds, count) = &mut bins[bin(t, axis)];
+            *bounds = bounds.with(t.bounds());
+            *count += 1;
+        }
+        let cost = |bins: &[(Bounds, usize)]| {
+            let sum = |(all, n): (Bounds, usize), (bounds, count): &(Bounds, usize)| {
+                (all.with(*bounds), n + count)
+            };
+            let (all, n) = bins.iter().fold((Bounds::EMPTY, 0), sum);
+            if n == 0 { f32::INFINITY } else { n as f32 * all.area() }
+        };
+        for at in 1..BINS {
+            let cost = cost(&bins[..at]) + cost(&bins[at..]);
+            if cost.is_finite() && best.is_none_or(|(least, _, _)| cost < least) {
+                best = Some((cost, axis, at));
+            }
+        }
+    }
+    let (_, axis, at) = best?;
+    let mut count = 0;
+    for i in 0..part.len() {
+        if bin(&part[i], axis) < at {
+            part.swap(i, count);
+            count += 1;
+        }
+    }
+    Some(count)
+}
+
+/// Sorts triangles into two halves along an axis. Returns how many are in the first half.
+fn halve(part: &mut [Triangle], axis: usize) -> usize {
+    let middle = part.len() / 2;
+    part.select_nth_unstable_by(middle, |a, b| a.centre()[axis].total_cmp(&b.centre()[axis]));
+    middle
+}
+
 impl Triangle {
+    fn centre(&self) -> Vec3 {
+        self.corner + (self.edges[0] + self.edges[1]) / 3.0
+    }
+
+    fn bounds(&self) -> Bounds {
+        let [b, c] = self.edges.map(|edge| self.corner + edge);
+        Bounds { low: self.corner.min(b).min(c), high: self.corner.max(b).max(c) }
+    }
+
     /// Ray against triangle after Möller and Trumbore 1997.
     fn hit(&self, from: Vec3, along: Vec3) -> Option<f32> {
         let p = along.cross(self.edges[1]);
