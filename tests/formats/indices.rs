@@ -176,6 +176,30 @@ fn lists_of_frames_are_sequences() {
     // Ranks at one time without an index file are one frame.
     let list = folder.put("ranks.pvd", pvd(&[set("0", "a_0.vtu"), set("0", "a_1.vtu")]));
     assert_eq!(frames(&list).unwrap(), [(0, Some(0.0), "a_0.vtu".into())]);
+    // Walls that rest, and a frame that is held.
+    let list = folder.put(
+        "rest.pvd",
+        pvd(&[
+            set("0", "a_0.vtu"),
+            set("0", "wall.vtu"),
+            set("1", "a_1.vtu"),
+            set("1", "wall.vtu"),
+            set("1", "wall.vtu"),
+            set("2", "a_1.vtu"),
+        ]),
+    );
+    let list = list.display().to_string();
+    for inputs in [vec![list.clone()], vec![list.clone(), list]] {
+        let found = expand(&inputs, None).unwrap();
+        let name = |path: &Path| path.file_name().unwrap().display().to_string();
+        let names = found.iter().map(|f| f.paths().map(name).collect::<Vec<_>>());
+        assert_eq!(
+            names.collect::<Vec<_>>(),
+            [vec!["a_0.vtu", "wall.vtu"], vec!["a_1.vtu", "wall.vtu"], vec!["a_1.vtu"]]
+        );
+        let times: Vec<_> = found.iter().map(|f| f.time).collect();
+        assert_eq!(times, [Some(0.0), Some(1.0), Some(2.0)]);
+    }
     for (name, bytes) in
         [("empty.pvd", pvd(&[])), ("bad.pvd", "<".into()), ("bad.series", "{".into())]
     {

@@ -257,8 +257,15 @@ fn files_that_cannot_be_looked_at_are_told() {
         assert!(matches!(error, SequenceError::Io { .. }), "{pattern}: {error}");
         assert!(error.to_string().contains("f_2.csv"), "{pattern}: {error}");
     }
-    // A link to what is gone is no file.
+    // A link to what is gone.
     std::fs::remove_file(&link).unwrap();
     std::os::unix::fs::symlink("gone.csv", &link).unwrap();
-    assert_eq!(folder.frames(&["f_*.csv"], None).len(), 2);
+    for pattern in ["f_*.csv", "f_%d.csv", "f_2.csv"] {
+        let error = expand(&[folder.input(pattern)], None).unwrap_err().to_string();
+        assert!(error.contains("f_2.csv is a link to gone.csv, which"), "{pattern}: {error}");
+    }
+    // Emacs locks a file so.
+    std::fs::remove_file(&link).unwrap();
+    std::os::unix::fs::symlink("me@host.42", folder.0.path().join(".#f_2.csv")).unwrap();
+    assert_eq!(folder.frames(&["*.csv"], None).len(), 2);
 }

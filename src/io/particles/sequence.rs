@@ -119,6 +119,14 @@ pub enum SequenceError {
         /// The index that lists it.
         index: PathBuf,
     },
+    /// A symbolic link whose target does not exist.
+    #[error("{} is a link to {}, which does not exist; put that file back or delete the link", path.display(), target.display())]
+    Link {
+        /// The link.
+        path: PathBuf,
+        /// What it names.
+        target: PathBuf,
+    },
     /// A folder or file could not be listed.
     #[error("cannot look at {}: {reason}; check the name and the permissions", path.display())]
     Io {
@@ -202,8 +210,11 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
             None => named.push(Named::new(path, said.map(|number| (number, None)))),
         }
     }
-    named.sort_by(|a, b| a.cmp(b).then_with(|| a.path.cmp(&b.path)));
-    named.dedup_by(|a, b| a.path == b.path);
+    let said = |named: &Named| named.said.map(|(number, _)| number);
+    let order = |a: &Named, b: &Named| a.cmp(b).then_with(|| a.path.cmp(&b.path));
+    named.sort_by(|a, b| order(a, b).then(said(a).cmp(&said(b))));
+    // A list may name a file at several times, such as walls that rest.
+    named.dedup_by(|a, b| a.path == b.path && (said(a) == said(b) || !a.listed || !b.listed));
     if named.len() > 1
         && let Some((file, index)) =
             named.iter().take(2).find_map(|named| Some((&named.path, index::lists(&named.path)?)))
@@ -285,17 +296,28 @@ fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError>
     }
     Err(match exists {
         Err(reason) => SequenceError::Io { path: path.to_path_buf(), reason },
-        Ok(_) => SequenceError::NotFound { input: input.into() },
+        Ok(_) => match is_file(path) {
+            Err(told) => told,
+            Ok(_) => SequenceError::NotFound { input: input.into() },
+        },
     })
 }
 
-/// Whether `path` is a file; false if nothing is there. If its metadata cannot be read for another reason, the result
-/// is an error, because the sequence would silently lack a frame.
+/// Whether `path` is a file; false if nothing is there. If it is a link to nothing, or its metadata cannot be read for
+/// another reason, the result is an error, because the sequence would silently lack a frame.
 fn is_file(path: &Path) -> Result<bool, SequenceError> {
     match std::fs::metadata(path) {
         Ok(found) => Ok(found.is_file()),
-        // A link to a file that is gone.
-        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Ok(false),
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => {
+            // Editors lock a file by a hidden link to nothing.
+            let hidden = path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+            match std::fs::read_link(path) {
+                Ok(target) if !hidden => {
+                    Err(SequenceError::Link { path: path.to_path_buf(), target })
+                }
+                _ => Ok(false),
+            }
+        }
         Err(reason) => Err(SequenceError::Io { path: path.to_path_buf(), reason }),
     }
 }
