@@ -69,6 +69,64 @@ fn a_table_with_times_is_frames() {
     assert_eq!(read(&one).unwrap().time, Some(0.5));
 }
 
+/// The column of times has many names. Some of them may mean something else: they count if ids repeat, or if equal
+/// numbers of particles follow each other.
+#[test]
+fn the_column_of_times_has_many_names() {
+    let folder = Folder::new("step-names");
+    let body: String =
+        (0..3).map(|i| rows(&cloud(i), &format!("{},", 0.25 * i as f32), ",")).collect();
+    for name in [
+        "Frame No.",
+        "iteration",
+        "snapshot",
+        "timestamp",
+        "sim_time",
+        "FrameNumber",
+        "Zeit (s)",
+        "t",
+    ] {
+        let text = format!("{name},id,x,y,z,vx,vy,vz\n{body}");
+        check(&folder.put("names.csv", text), &TIMES);
+    }
+    let of = |name: &str, values: [f32; 12]| {
+        let row = |(i, value): (usize, &f32)| format!("{value},{},{},0\n", i % 4, i / 4);
+        let body: String = values.iter().enumerate().map(row).collect();
+        let path = folder.put("t.csv", format!("{name},x,y,z\n{body}"));
+        (steps(&path).unwrap().len(), read(&path).map(|all| all.time).ok())
+    };
+    let blocks = |counts: [usize; 3], values: [f32; 3]| {
+        let mut all = [0.0; 12];
+        let repeated = counts.into_iter().zip(values).flat_map(|(n, value)| vec![value; n]);
+        all.iter_mut().zip(repeated).for_each(|(a, b)| *a = b);
+        all
+    };
+    let even = blocks([4, 4, 4], [0.0, 0.1, 0.2]);
+    assert_eq!([of("t", even).0, of("it", even).0, of("time", even).0], [3; 3]);
+    // Kinds of particles, and temperatures: one frame, whose time is unknown.
+    for values in [
+        blocks([6, 4, 2], [0.0, 0.1, 0.2]),
+        blocks([4, 4, 4], [0.2, 0.1, 0.0]),
+        blocks([6, 6, 0], [0.0, 1.0, 0.0]),
+        [300.0; 12],
+        std::array::from_fn(|i| 300.0 + i as f32),
+    ] {
+        assert_eq!(of("t", values), (0, Some(None)), "{values:?}");
+    }
+    assert_eq!(of("time", [300.0; 12]), (0, Some(Some(300.0))));
+}
+
+/// Where a solid body's particles were at first is called `X`.
+#[test]
+fn positions_in_small_letters_are_preferred() {
+    let folder = Folder::new("reference");
+    for head in ["X,Y,Z,x,y,z", "x,y,z,X,Y,Z", "Pos.X,Pos.Y,Pos.Z,pos.x,pos.y,pos.z"] {
+        let row = if head.starts_with('x') { "4,5,6,1,2,3" } else { "1,2,3,4,5,6" };
+        let found = read(&folder.put("a.csv", format!("{head}\n{row}\n"))).unwrap();
+        assert_eq!(found.positions, [[4.0, 5.0, 6.0]], "{head}");
+    }
+}
+
 #[test]
 fn frames_of_xyz_one_after_the_other() {
     let folder = Folder::new("xyz-steps");

@@ -542,10 +542,15 @@ impl<'a> Search<'a> {
         Self { shapes, plain: shapes.iter().map(|shape| names::plain(shape.name)).collect() }
     }
 
-    /// The first column with this name and number of components.
+    /// The column with this name and number of components; of several, the first in small letters, because `X` beside
+    /// `x` is where the particle was at first, else the first.
     fn one(&self, name: &str, components: usize) -> Option<usize> {
-        let mut all = self.shapes.iter().zip(&self.plain);
-        all.position(|(shape, plain)| shape.components == components && plain == name)
+        let is = |(shape, plain): &(&Shape<'_>, &String)| {
+            shape.components == components && *plain == name
+        };
+        let all = || self.shapes.iter().zip(&self.plain);
+        let small = all().position(|each| is(&each) && !each.0.name.contains(char::is_uppercase));
+        small.or_else(|| all().position(|each| is(&each)))
     }
 
     /// All columns that were requested by name.

@@ -80,7 +80,45 @@ pub(super) const GHOST: Names =
 /// Suffix that is added to the name of a ghost attribute if its values belong to cells instead of points.
 pub(super) const OF_CELLS: &str = " of cells";
 /// Names of the time or step of a particle, in files with several frames.
-pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
+pub(super) const STEP: Names = &[
+    "timestep",
+    "time",
+    "timevalue",
+    "step",
+    "frame",
+    "frameid",
+    "frameno",
+    "framenr",
+    "framenumber",
+    "frameindex",
+    "stepno",
+    "stepnumber",
+    "nstep",
+    "tstep",
+    "timestepnumber",
+    "iteration",
+    "iter",
+    "cycle",
+    "snapshot",
+    "timestamp",
+    "simtime",
+    "simulationtime",
+    "physicaltime",
+    "currenttime",
+    "currentstep",
+    "elapsedtime",
+    "zeit",
+    "temps",
+    "tiempo",
+    "tempo",
+    "t",
+    "ts",
+    "it",
+    "output",
+];
+/// Those of them that often mean something else, such as a temperature or a tag. They count only if their values look
+/// like the times of frames.
+const UNSURE_STEP: Names = &["t", "ts", "it", "output", "tempo"];
 
 /// Names to suggest in the error if there are no positions.
 pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
@@ -217,7 +255,7 @@ pub(super) fn is_component(name: &str) -> bool {
 
 /// Whether this is the name of a list of times.
 pub(super) fn is_time(name: &str) -> bool {
-    is_step(name) || ["t", "times", "timesteps", "steps"].contains(&plain(name).as_str())
+    is_step(name) || ["times", "timesteps", "steps"].contains(&plain(name).as_str())
 }
 
 /// Whether some of these names denote positions, either as a vector or as two or three components.
@@ -236,6 +274,11 @@ pub(super) fn may_be_text(name: &str) -> bool {
 /// Whether an attribute with this name is a particle's time or step, whose values need not be numbers.
 pub(super) fn is_step(name: &str) -> bool {
     STEP.contains(&plain(name).as_str())
+}
+
+/// Whether the name of a time or step often means something else.
+pub(super) fn is_unsure_step(name: &str) -> bool {
+    UNSURE_STEP.contains(&plain(name).as_str())
 }
 
 /// Whether columns with these names contain positions, in two dimensions at least. This distinguishes a line

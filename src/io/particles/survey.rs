@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::columns::{Column, Data, Extra, Roles, Vector};
 use super::error::ReadError;
-use super::names::OF_CELLS;
+use super::names::{self, OF_CELLS};
 use super::{Format, Particles};
 
 /// Converts values to integers.
@@ -164,14 +164,27 @@ struct Steps {
     last: Option<f64>,
     /// Number of changes from one particle to the next.
     changes: usize,
+    /// Number of particles since the last change, and up to the first; and whether the values rise, after equal
+    /// numbers of particles each.
+    run: usize,
+    first_run: usize,
+    even: bool,
     different: HashSet<u64>,
 }
 
 impl Steps {
     fn add(&mut self, time: f64) {
         if self.last.is_some_and(|last| last.to_bits() == time.to_bits()) {
+            self.run += 1;
             return;
         }
+        match self.changes {
+            _ if self.last.is_none() => self.even = true,
+            0 => self.first_run = self.run,
+            _ => self.even &= self.run == self.first_run,
+        }
+        self.even &= self.last.is_none_or(|last| last < time);
+        self.run = 1;
         self.changes += usize::from(self.last.is_some());
         self.first.get_or_insert(time);
         self.last = Some(time);
@@ -260,7 +273,8 @@ impl Survey {
     }
 
     fn one_time(&self) -> Option<f64> {
-        self.steps.first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
+        let first = self.steps.first.filter(|_| !names::is_unsure_step(&self.steps.name));
+        first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
     }
 
     /// Samples some of the next `rows` positions. They are chosen by the particle's number in the file alone, because
@@ -465,7 +479,11 @@ impl Survey {
                         && self.seen.is_multiple_of(count))
             }
         };
-        (2..=STEPS).contains(&count) && several
+        // Of a column `t` without ids to prove it: a temperature does not rise from block to block, and kinds of
+        // particles differ in their numbers.
+        let even = steps.even && steps.run == steps.first_run && count > 2;
+        let sure = !names::is_unsure_step(&steps.name) || !self.numbers.counts.is_empty();
+        (2..=STEPS).contains(&count) && several && (sure || even)
     }
 
     /// The times of several frames, sorted.
