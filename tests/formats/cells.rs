@@ -257,3 +257,100 @@ fn cells_in_xdmf() {
         assert!(p.warnings[0].contains(why), "{name}: {:?}", p.warnings);
     }
 }
+
+fn list(name: &str, ty: &str, values: &str) -> String {
+    format!("<DataArray type=\"{ty}\" Name=\"{name}\" format=\"ascii\">{values}</DataArray>")
+}
+
+fn cells_of(node: &str, offsets: &str, connectivity: &str, types: &str) -> String {
+    let types = if types.is_empty() { String::new() } else { list("types", "UInt8", types) };
+    let (offsets, points) =
+        (list("offsets", "Int64", offsets), list("connectivity", "Int64", connectivity));
+    format!("<{node}>{points}{offsets}{types}</{node}>")
+}
+
+/// Six points `x` = id = 0 to 5.
+fn six(kind: &str, counts: &str, cells: &str) -> String {
+    let points: String = (0..6).map(|x| format!("{x} 0 0 ")).collect();
+    format!(
+        "<VTKFile type=\"{kind}\"><{kind}><Piece NumberOfPoints=\"6\" {counts}><PointData>{}</PointData><Points>\
+         <DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">{points}</DataArray></Points>{cells}\
+         </Piece></{kind}></VTKFile>",
+        list("id", "Int32", "0 1 2 3 4 5")
+    )
+}
+
+/// Particles beside a mesh, as ParaView's Append Datasets writes them.
+#[test]
+fn points_of_a_mesh_beside_particles_are_left_out() {
+    let poly = |counts: &str, cells: &[String]| six("PolyData", counts, &cells.concat());
+    let grid = |count: usize, cells: String| {
+        six("UnstructuredGrid", &format!("NumberOfCells=\"{count}\""), &cells)
+    };
+    let three = cells_of("Verts", "1 2 3", "0 1 2", "");
+    let face = |points: &str| cells_of("Polys", "3", points, "");
+    for (name, text, expected) in [
+        (
+            "VTP",
+            poly("NumberOfVerts=\"3\" NumberOfPolys=\"1\"", &[three.clone(), face("3 4 5")]),
+            &[0, 1, 2][..],
+        ),
+        (
+            "VTP, the mesh first, one cell of all particles",
+            poly(
+                "NumberOfVerts=\"1\" NumberOfPolys=\"1\"",
+                &[cells_of("Verts", "3", "5 3 4", ""), face("0 1 2")],
+            ),
+            &[3, 4, 5],
+        ),
+        (
+            "VTP, vertices of some",
+            poly("NumberOfVerts=\"3\"", &[cells_of("Verts", "1 2 3", "4 0 2", "")]),
+            &[0, 2, 4],
+        ),
+        ("VTU", grid(4, cells_of("Cells", "1 2 5 6", "0 2 1 3 4 5", "1 1 5 1")), &[0, 2, 5]),
+        (
+            "VTU, one cell of several",
+            grid(2, cells_of("Cells", "2 6", "4 5 0 1 2 3", "2 9")),
+            &[4, 5],
+        ),
+    ] {
+        let whole = parsed(&text, Extension::Vtu);
+        let ids: Vec<u32> = whole.positions.iter().map(|p| p[0] as u32).collect();
+        assert_eq!((ids.as_slice(), whole.ids.as_deref()), (expected, Some(expected)), "{name}");
+        let told = format!("{} of 6 points are left out", 6 - expected.len());
+        assert!(
+            whole.warnings.len() == 1 && whole.warnings[0].contains(&told),
+            "{name}: {:?}",
+            whole.warnings
+        );
+        for most in 1..4 {
+            let parts = Parts::of_bytes(text.as_bytes(), Extension::Vtu, most).unwrap();
+            assert_eq!(parts.total(), expected.len(), "{name}");
+            let ids: Vec<u32> = parts.flat_map(|part| part.unwrap().ids.unwrap()).collect();
+            assert_eq!(ids, expected, "{name} in parts of {most}");
+        }
+    }
+    for (name, text, mesh) in [
+        (
+            "faces between particles",
+            poly(
+                "NumberOfVerts=\"1\" NumberOfPolys=\"1\"",
+                &[cells_of("Verts", "6", "0 1 2 3 4 5", ""), face("0 1 2")],
+            ),
+            false,
+        ),
+        ("points alone of meshio", grid(1, cells_of("Cells", "1", "0", "1")), false),
+        ("corners of Gmsh", grid(3, cells_of("Cells", "1 4 7", "0 0 1 2 3 4 5", "1 5 5")), true),
+        (
+            "no such point",
+            poly("NumberOfVerts=\"3\"", &[cells_of("Verts", "1 2 3", "4 0 6", "")]),
+            false,
+        ),
+        ("no list", poly("NumberOfVerts=\"3\"", &[]), false),
+    ] {
+        let p = parsed(&text, Extension::Vtu);
+        assert_eq!(p.positions.len(), 6, "{name}");
+        assert_eq!(p.warnings.len(), usize::from(mesh), "{name}: {:?}", p.warnings);
+    }
+}

@@ -170,6 +170,172 @@ impl Cells {
     }
 }
 
+/// Which points of a grid are particles. In a file that holds particles and a mesh, such as ParaView's Append Datasets
+/// writes, particles are the points that vertices (cells of one point) name; the mesh has the other points.
+#[derive(Clone, Default)]
+pub(super) struct Vertices {
+    /// Number of points of all pieces so far.
+    points: u64,
+    /// Points of vertices, and of pieces without cells.
+    kept: Vec<Range<u64>>,
+    /// Whether any piece has vertices.
+    any: bool,
+}
+
+impl Vertices {
+    /// Adds a piece of `points` points without cells, or with a vertex for each point.
+    pub(super) fn all(&mut self, points: u64, vertices: bool) {
+        self.keep(self.points..self.points.saturating_add(points));
+        self.points = self.points.saturating_add(points);
+        self.any |= vertices;
+    }
+
+    /// Adds a piece of `points` points that only a mesh has.
+    pub(super) fn none(&mut self, points: u64) {
+        self.points = self.points.saturating_add(points);
+    }
+
+    /// Adds a piece of `points` points, given those of its vertices and those of its other cells.
+    pub(super) fn some(&mut self, points: u64, mut vertices: Vec<u32>, mut others: Vec<u32>) {
+        for list in [&mut vertices, &mut others] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        if vertices.len() as u64 == points {
+            return self.all(points, true);
+        }
+        // meshio needs a cell to write points alone, so that one of them is named.
+        if vertices.len() < 2 && others.is_empty() {
+            return self.all(points, false);
+        }
+        // Gmsh marks corners of a mesh by vertices.
+        if vertices.iter().all(|point| others.binary_search(point).is_ok()) {
+            return self.none(points);
+        }
+        self.any = true;
+        for point in vertices {
+            let point = self.points.saturating_add(u64::from(point));
+            self.keep(point..point.saturating_add(1));
+        }
+        self.none(points);
+    }
+
+    fn keep(&mut self, range: Range<u64>) {
+        match self.kept.last_mut() {
+            Some(last) if last.end == range.start => last.end = range.end,
+            _ => self.kept.push(range),
+        }
+    }
+
+    /// The particles, and a warning about the points that are none; `None` if all are.
+    pub(super) fn finish(self) -> Option<(Arc<[Range<u64>]>, String)> {
+        let kept = count(&self.kept);
+        (self.any && kept < self.points).then(|| {
+            let told = format!(
+                "{} of {} points are left out: they belong to polygons, other cells or none, where particles have \
+                 vertices (cells of one point)",
+                self.points - kept,
+                self.points
+            );
+            (Arc::from(self.kept), told)
+        })
+    }
+}
+
+/// Number of points in ranges.
+fn count(ranges: &[Range<u64>]) -> u64 {
+    ranges.iter().fold(0, |sum, range| sum.saturating_add(range.end - range.start))
+}
+
+/// The values of a list of integers.
+pub(super) fn integers(track: &Track<'_>, count: u64) -> Option<Vec<u32>> {
+    let mut values = Vec::new();
+    let integer = |_, value: f64| {
+        let whole = value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value);
+        values.push(if whole { value as u32 } else { return Err(String::new()) });
+        Ok(())
+    };
+    each(track, count, integer).ok()?;
+    Some(values)
+}
+
+/// The values of a track (values in a file) in some rows only.
+pub(super) fn kept<'a>(track: Track<'a>, rows: Arc<[Range<u64>]>, all: u64) -> Track<'a> {
+    let Track { columns, lengths, what, open: inner } = track;
+    let out = all.saturating_sub(count(&rows));
+    let left = |(length, column): (&u64, &Column)| {
+        length.saturating_sub(out.saturating_mul(column.components as u64))
+    };
+    let lengths = lengths.map(|lengths| lengths.iter().zip(&columns).map(left).collect());
+    let empty = columns.clone();
+    let open = move |used: &[bool]| {
+        let (rows, passed) = (rows.clone(), empty.clone());
+        let used_any = used.contains(&true);
+        let stream =
+            Kept { inner: inner(used)?, used: used_any, passed, rows, next: 0, at: 0, all };
+        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
+    };
+    Track { columns, lengths, what, open: Box::new(open) }
+}
+
+struct Kept<'a> {
+    inner: Box<dyn Stream + 'a>,
+    used: bool,
+    /// Takes the rows that are left out.
+    passed: Vec<Column>,
+    rows: Arc<[Range<u64>]>,
+    /// Index of the next range of rows.
+    next: usize,
+    /// Number of rows read, and of all rows.
+    at: u64,
+    all: u64,
+}
+
+impl Kept<'_> {
+    /// Reads on to row `row`.
+    fn pass(&mut self, row: u64, room: &mut Vec<u8>) -> Result<(), ReadError> {
+        while self.at < row {
+            let some = SOME.min(row - self.at);
+            self.passed.iter_mut().for_each(|column| column.data.clear());
+            self.inner.read(some as usize, &mut self.passed, room)?;
+            self.at += some;
+        }
+        Ok(())
+    }
+}
+
+impl Stream for Kept<'_> {
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError> {
+        if !self.used {
+            return Ok(count);
+        }
+        let mut read = 0;
+        while read < count {
+            let Some(range) = self.rows.get(self.next).cloned() else { break };
+            self.pass(range.start, room)?;
+            let left = usize::try_from(range.end - self.at).unwrap_or(usize::MAX);
+            let some = left.min(count - read);
+            self.inner.read(some, columns, room)?;
+            (read, self.at) = (read + some, self.at + some as u64);
+            self.next += usize::from(self.at == range.end);
+        }
+        Ok(read)
+    }
+
+    fn finish(&mut self) -> Result<u64, ReadError> {
+        // What follows the last particle may be damaged.
+        if self.used {
+            self.pass(self.all, &mut Vec::new())?;
+        }
+        self.inner.finish()
+    }
+}
+
 /// Reads a track (values in a file) that has one column, and calls `each` with the index and value of its first
 /// `count` values.
 fn each(

@@ -32,7 +32,8 @@ const START: u64 = 1 << 16;
 /// in gzip or with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA.
 /// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)), except such VTK XML, which is read
 /// in parts, but whose header is as long as the file. In VTK files, an attribute of cells is held as a whole if the
-/// cells are in another order than the points. Because each attribute of a VTK file has a place of its own in the
+/// cells are in another order than the points, and the list of the cells' points if the points are also those of a
+/// mesh. Because each attribute of a VTK file has a place of its own in the
 /// file, gzip content is decompressed once per attribute.
 pub struct Parts<'a> {
     about: Particles,

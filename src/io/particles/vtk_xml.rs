@@ -16,7 +16,7 @@ use roxmltree::Node;
 use super::arrays::{self, Array, Segment, Stored};
 use super::asked::Asked;
 use super::bytes::show;
-use super::cells::{self, Cells, Ends, Lists};
+use super::cells::{self, Cells, Ends, Lists, Vertices};
 use super::columns::{Attribute, AttributeType, Column, PLACED};
 use super::encoded::Encoding;
 use super::error::{Place, ReadError};
@@ -71,6 +71,7 @@ struct Grid<'a> {
     cells: u64,
     cell: &'static str,
     on_cells: OnCells<'a>,
+    vertices: Vertices,
     asked: Asked,
 }
 
@@ -147,13 +148,20 @@ impl<'a> Grid<'a> {
                 all
             });
         }
-        if self.cells > 0 {
-            warnings.push(mesh_warning(self.cells, self.cell));
+        let particles = self.vertices.finish();
+        match &particles {
+            Some((_, told)) => warnings.push(told.clone()),
+            None if self.cells > 0 => warnings.push(mesh_warning(self.cells, self.cell)),
+            None => {}
         }
         let format = self.format.unwrap_or(Format::Vtu(Storage::Ascii, Compression::None));
         let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
         let mut tracks: Vec<_> = tracks.collect();
         tracks.append(&mut join_cells(self.on_cells, points, &mut attributes, &mut warnings));
+        if let Some((rows, _)) = particles {
+            let some = |track| cells::kept(track, rows.clone(), points);
+            tracks = tracks.into_iter().map(some).collect();
+        }
         let about = About { placed: Some(0), attributes, warnings, time, format, asked };
         Plan::new(tracks, about, limit)
     }
@@ -261,6 +269,11 @@ impl<'a> Grid<'a> {
                 self.cells = self.cells.saturating_add(cells);
                 self.cell = cell;
             }
+            match reader.vertices(&piece, points, vtp, &mut self.vertices) {
+                Ok(()) => {}
+                Err(Missing::List) => self.vertices.all(points, false),
+                Err(Missing::Text) => return Ok(false),
+            }
             if !reader.cells(&piece, points, &mut self.on_cells, &self.asked)? {
                 return Ok(false);
             }
@@ -311,6 +324,10 @@ fn child<'a, 'i>(node: &Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     node.children().find(|n| n.has_tag_name(name))
 }
 
+fn array_of<'a, 'i>(node: &Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|array| array.attribute("Name") == Some(name))
+}
+
 fn attribute_error(name: &str, value: &str) -> ReadError {
     ReadError::malformed(format!("a known `{name}`"), format!("\"{value}\""), Place::Unknown)
 }
@@ -355,6 +372,14 @@ impl Appended {
 /// Whether a cell of this type consists of points or nothing.
 pub(super) fn is_point(cell: f64) -> bool {
     cell <= 2.0
+}
+
+/// Why the points of cells are unknown.
+enum Missing {
+    /// There is no list of them that can be read.
+    List,
+    /// The head leaves out their text, which cannot be read from its place in the file.
+    Text,
 }
 
 /// Finds the arrays.
@@ -425,13 +450,114 @@ impl<'a> Reader<'_, 'a> {
             return (polygons, "polygons");
         }
         let cells = number("NumberOfCells").unwrap_or(0);
-        let types = child(piece, "Cells").and_then(|cells| {
-            cells.children().find(|array| array.attribute("Name") == Some("types"))
-        });
+        let types = child(piece, "Cells").and_then(|cells| array_of(&cells, "types"));
         let types = types.filter(|_| cells > 0).and_then(|types| self.peek(&types, cells));
         let types = types.unwrap_or_default();
         let more = types.iter().filter(|ty| !is_point(**ty)).count();
         if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
+    }
+
+    /// Finds which points of a piece are particles.
+    fn vertices(
+        &mut self,
+        piece: &Node<'_, '_>,
+        points: u64,
+        vtp: bool,
+        all: &mut Vertices,
+    ) -> Result<(), Missing> {
+        let number =
+            |name: &str| piece.attribute(name).and_then(|n| n.trim().parse().ok()).unwrap_or(0_u64);
+        let (mut vertices, mut others) = (Vec::new(), Vec::new());
+        if vtp {
+            let names = [
+                ("Lines", "NumberOfLines"),
+                ("Strips", "NumberOfStrips"),
+                ("Polys", "NumberOfPolys"),
+            ];
+            let alone = names.iter().all(|(_, count)| number(count) == 0);
+            let count = number("NumberOfVerts");
+            if count == 0 || (alone && count >= points) {
+                if alone {
+                    all.all(points, count > 0);
+                } else {
+                    all.none(points);
+                }
+                return Ok(());
+            }
+            let ends = self.integers(piece, "Verts", "offsets", count)?;
+            let last = u64::from(ends.last().copied().unwrap_or(0));
+            if alone && last >= points {
+                all.all(points, true);
+                return Ok(());
+            }
+            vertices = self.integers(piece, "Verts", "connectivity", last)?;
+            for (name, count) in names.into_iter().filter(|(_, count)| number(count) > 0) {
+                let ends = self.integers(piece, name, "offsets", number(count))?;
+                let last = u64::from(ends.last().copied().unwrap_or(0));
+                others.append(&mut self.integers(piece, name, "connectivity", last)?);
+            }
+        } else {
+            let count = number("NumberOfCells");
+            if count == 0 {
+                all.all(points, false);
+                return Ok(());
+            }
+            let first = child(piece, "Cells").and_then(|cells| array_of(&cells, "types"));
+            let first = first.and_then(|types| self.peek(&types, count)).ok_or(Missing::List)?;
+            // All types are only read if particles and other points may be mixed.
+            if count == points && first.iter().all(|ty| is_point(*ty)) {
+                all.all(points, true);
+                return Ok(());
+            }
+            let types = self.integers(piece, "Cells", "types", count)?;
+            let is_vertex = |ty: &u32| is_point(f64::from(*ty));
+            if !types.iter().any(is_vertex) {
+                all.none(points);
+                return Ok(());
+            }
+            let ends = self.integers(piece, "Cells", "offsets", count)?;
+            let last = u64::from(ends.last().copied().unwrap_or(0));
+            if last >= points && types.iter().all(is_vertex) {
+                all.all(points, true);
+                return Ok(());
+            }
+            let list = self.integers(piece, "Cells", "connectivity", last)?;
+            let mut start = 0;
+            for (end, ty) in ends.into_iter().zip(&types) {
+                let own = list.get(start..end as usize).ok_or(Missing::List)?;
+                if is_vertex(ty) { &mut vertices } else { &mut others }.extend_from_slice(own);
+                start = end as usize;
+            }
+        }
+        if vertices.iter().chain(&others).any(|point| u64::from(*point) >= points) {
+            return Err(Missing::List);
+        }
+        all.some(points, vertices, others);
+        Ok(())
+    }
+
+    /// The values of a list of a piece's cells.
+    fn integers(
+        &mut self,
+        piece: &Node<'_, '_>,
+        cells: &str,
+        name: &str,
+        count: u64,
+    ) -> Result<Vec<u32>, Missing> {
+        let list = child(piece, cells).and_then(|cells| array_of(&cells, name));
+        let list = list.ok_or(Missing::List)?;
+        let (_, components, ty) = self.described(&list).map_err(|_| Missing::List)?;
+        if components != 1 || ty.size().is_none() {
+            return Err(Missing::List);
+        }
+        // These values do not concern the particles' own.
+        let budget = self.budget;
+        let segment = self.segment(&list, name, ty, count);
+        self.budget = budget;
+        let segment = segment.map_err(|_| Missing::List)?.ok_or(Missing::Text)?;
+        let array = Array { name: name.into(), components: 1, segments: vec![segment] };
+        let track = arrays::track(Column::new(name, 1, ty), array);
+        cells::integers(&track, count).ok_or(Missing::List)
     }
 
     /// Finds the attributes of a piece's cells, and whether each cell is one of its points. Returns false if the
@@ -490,7 +616,7 @@ impl<'a> Reader<'_, 'a> {
             return Ok(true);
         }
         let list = |name: &str| {
-            let list = verts?.children().find(|array| array.attribute("Name") == Some(name))?;
+            let list = array_of(&verts?, name)?;
             let (_, components, ty) = self.described(&list).ok()?;
             (components == 1 && ty.size().is_some()).then_some((list, ty))
         };
