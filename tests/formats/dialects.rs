@@ -332,6 +332,20 @@ fn text_in_other_encodings() {
 fn doubles_of_fortran() {
     let p = read("  1.5D+00   2.5d-01  -3.0D0\n", Extension::Text);
     assert_eq!(p.positions, [[1.5, 0.25, -3.0]]);
+    // An exponent of three digits has no letter.
+    let p = read("1.404768-100 1.5+002 -2.5-001\n", Extension::Text);
+    assert_eq!(p.positions, [[0.0, 150.0, -0.25]]);
+    error("x,y,z\n1,2,2024-100\n", Extension::Csv, &["`z`", "2024-100"]);
+}
+
+#[test]
+fn empty_fields_at_the_end_of_the_first_row() {
+    for row in ["1,2,3,,,", "1,2,3,,,,", "1,2,3,4,,", "1,2,3,4,5,"] {
+        let p = read(&format!("x,y,z,vx,vy,vz\n{row}\n4,5,6,7,8,9\n"), Extension::Csv);
+        assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{row}");
+        let velocities = p.velocities.unwrap();
+        assert!(velocities[0][2].is_nan() && velocities[1] == [7.0, 8.0, 9.0], "{row}");
+    }
 }
 
 #[test]

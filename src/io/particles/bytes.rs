@@ -96,7 +96,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// Parses a number. Besides ordinary numbers it accepts NaN and infinity in every spelling of `printf` on any platform,
-/// and Fortran's double-precision exponent D.
+/// and Fortran's exponents: after a D, and of three digits without a letter (`1.4-100`).
 pub(super) fn parse_number(token: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(token).ok()?;
     if let Ok(value) = text.parse() {
@@ -105,6 +105,14 @@ pub(super) fn parse_number(token: &[u8]) -> Option<f64> {
     // Fortran writes the exponent of a double after a D.
     if let Some(d) = text.find(['d', 'D'])
         && let (Some(mantissa), Some(exponent)) = (text.get(..d), text.get(d + 1..))
+        && let Ok(value) = format!("{mantissa}e{exponent}").parse()
+    {
+        return Some(value);
+    }
+    if let Some(at) = text.len().checked_sub(4)
+        && let Some((mantissa, exponent)) = text.split_at_checked(at)
+        && exponent.starts_with(['+', '-'])
+        && mantissa.contains('.')
         && let Ok(value) = format!("{mantissa}e{exponent}").parse()
     {
         return Some(value);

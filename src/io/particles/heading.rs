@@ -198,13 +198,21 @@ impl Heading {
             let below = below(lines, i + 1);
             let row = below.map_or_else(|| data(i + 1), |(_, row)| Some(row));
             let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
-            let count = row.map(|row| fields(&row.text, separator).len());
+            // The last fields of the row may be empty, or a separator may end it.
+            let count = row.map(|row| {
+                let count = fields(&row.text, separator).len();
+                let ends =
+                    separator.map_or(0, |d| row.text.iter().filter(|b| **b == d).count() + 1);
+                count..=ends.max(count)
+            });
             let mut separators = vec![separator];
             separators.extend([b';', b'\t', b'|', b','].map(Some));
             separators.push(None);
             let names = separators.into_iter().map(|d| fields(names_line, d)).find(|names| {
                 let words = names.iter().any(|name| !is_number(name, None));
-                words && count.is_none_or(|count| count == names.len()) && have_positions(names)
+                words
+                    && count.as_ref().is_none_or(|count| count.contains(&names.len()))
+                    && have_positions(names)
             });
             if let Some(names) = names {
                 let passed = passed(i);

@@ -438,7 +438,8 @@ impl Survey {
         let dropped = dropped.filter_map(|(dropped, limits)| {
             let Dropped { attribute, value, particle } = dropped.as_ref()?;
             Some(format!(
-                "attribute `{attribute}` is dropped: value {value} of particle {particle} is not a whole number{limits}"
+                "attribute `{attribute}` is dropped: {} of particle {particle} is not a whole number{limits}",
+                if value.is_nan() { "the word or NaN".into() } else { format!("value {value}") }
             ))
         });
         let repeated = (self.ids.is_none() && self.repeated_ids()).then(|| {

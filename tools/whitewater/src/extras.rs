@@ -13,7 +13,7 @@ use crate::fluids::Fluids;
 use crate::radii::{DIAMETERS, RADII, UNSURE};
 
 /// Names of attributes that distinguish several fluids (phases), or walls from water.
-const PHASES: [&str; 34] = [
+const PHASES: [&str; 50] = [
     "type",
     "mk",
     "phase",
@@ -48,6 +48,22 @@ const PHASES: [&str; 34] = [
     "boundary type",
     "particle kind",
     "fluid type",
+    "wall",
+    "is wall",
+    "walls",
+    "solid",
+    "fixed",
+    "is fixed",
+    "static",
+    "is static",
+    "obstacle",
+    "tag",
+    "flag",
+    "region",
+    "state",
+    "obj",
+    "matname",
+    "material name",
 ];
 /// Max number of values of an attribute that distinguishes phases.
 const MOST: usize = 16;

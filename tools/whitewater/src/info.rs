@@ -122,6 +122,9 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
         .into_iter()
         .map(|(name, _)| (name.to_string(), json!(names(extras::at_rest(particles, name)))))
         .collect();
+    let radii = radii::radii(particles);
+    let misfit = radii.zip(spacing).and_then(|([_, radius, _], s)| radii::misfit(radius, s));
+    let warnings: Vec<_> = particles.warnings.iter().chain(&misfit).collect();
     json!({
         "file": path,
         "frame": frame.number,
@@ -134,13 +137,13 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
         "time": particles.time.or(frame.time),
-        "radii": radii::radii(particles),
+        "radii": radii,
         "phases": phases,
         "at_rest": at_rest,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
         "up": up(particles),
-        "warnings": particles.warnings,
+        "warnings": warnings,
     })
 }
 

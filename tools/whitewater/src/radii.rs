@@ -135,6 +135,23 @@ pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
     Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
 }
 
+/// Radii of the files are doubted if their median, in particle spacings, is outside this range. Drops may lie far from
+/// each other, and smoothing lengths are sometimes called radii.
+const DOUBTED: [f32; 2] = [0.1, 2.0];
+
+/// Warning about radii of the files that do not fit the particles' spacing. Both are in one unit.
+pub fn misfit(radius: f32, spacing: f32) -> Option<String> {
+    let [least, most] = DOUBTED.map(|share| share * spacing);
+    (!(least..=most).contains(&radius)).then(|| {
+        format!(
+            "the radii of the files do not fit the particles' spacing: their median is {radius:.4e}, and half of the \
+             spacing is {:.4e} (another unit? --radius {:.4} sets the radius)",
+            0.5 * spacing,
+            0.5 * spacing
+        )
+    })
+}
+
 /// How large particles are split, in all frames alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
@@ -241,6 +258,17 @@ fn turn(id: u32) -> Quat {
 mod tests {
     use super::*;
     use whitewater::io::particles::Extra;
+
+    #[test]
+    fn radii_in_another_unit_are_told() {
+        for radius in [0.025, 0.05, 0.006, 0.09] {
+            assert_eq!(misfit(radius, 0.05), None, "{radius}");
+        }
+        for radius in [25.0, 0.0025, 0.11] {
+            let told = misfit(radius, 0.05).unwrap();
+            assert!(told.contains("--radius 0.0250"), "{told}");
+        }
+    }
 
     fn particles(radii: &[f32]) -> Particles {
         let at = |i: usize| [i as f32, 0.0, 0.0];

@@ -15,6 +15,7 @@ use crate::output;
 use crate::placing::Placing;
 use crate::probes::{Probes, step_of};
 use crate::progress::Progress;
+use crate::radii;
 use crate::reader::{DEFAULT_FPS, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
@@ -394,6 +395,8 @@ fn spacing(
                 _ => "of the files".into(),
             };
             progress.say(&format!("radius {} ({of}{differ}; --radius sets it)", round(radius)));
+            let misfit = probes.spacing().and_then(|spacing| radii::misfit(middle, spacing));
+            misfit.iter().for_each(|told| progress.say(told));
             2.0 * radius
         }
         _ => match probes.spacing() {
