@@ -6,7 +6,8 @@ use super::bad::{damaged, numbers};
 use super::samples::{self, Has};
 use super::{allocation, folder::Folder};
 use whitewater::io::particles::{
-    Extension, Format, Particles, Parts, ReadError, Step, read, read_bytes, read_step, steps,
+    Extension, Format, Meaning, Particles, Parts, ReadError, Step, read, read_bytes, read_step,
+    steps,
 };
 
 fn path(name: &str) -> PathBuf {
@@ -30,7 +31,7 @@ fn frame(name: &str, index: usize) -> Particles {
 
 #[test]
 fn files_of_one_frame_are_the_cloud() {
-    for name in ["pysph.hdf5", "grid.vtkhdf", "plain.h5", "turned.h5", "cloud.xdmf"] {
+    for name in ["pysph.hdf5", "grid.vtkhdf", "plain.h5", "turned.h5", "half.h5", "cloud.xdmf"] {
         let particles = read(&path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         samples::check(name, &particles, Has::All);
         let xdmf = name.ends_with("xdmf");
@@ -106,6 +107,98 @@ fn steps_are_frames() {
     read_step(&path("steps.vtkhdf"), none, &[]).unwrap_err();
 }
 
+/// Numbers in the names of groups count frames only where the name or a time says so.
+#[test]
+fn groups_are_frames_by_their_names_or_times() {
+    let found = times("ranks.h5");
+    assert_eq!(found, [None, None]);
+    for (i, by) in [0.0, 1.5].into_iter().enumerate() {
+        let particles = moved(frame("ranks.h5", i), by);
+        assert_eq!(particles.positions, samples::cloud().positions, "{i}");
+        assert_eq!(particles.ids, samples::cloud().ids, "{i}");
+        let name = ["0", "1.5"][i];
+        let told =
+            format!("2 groups are read as pieces of one frame: /t_{name}/rank_0, /t_{name}/rank_1");
+        assert_eq!(particles.warnings, [told]);
+    }
+    assert_eq!(times("timed.h5"), [Some(0.25), Some(0.5)]);
+    for i in 0..2 {
+        let particles = moved(frame("timed.h5", i), i as f32);
+        assert_eq!(particles.positions, samples::cloud().positions, "{i}");
+    }
+    // Sorted by number, not by name.
+    assert_eq!(times("beside.h5"), [None, None]);
+    for i in 0..2 {
+        let particles = moved(frame("beside.h5", i), i as f32);
+        assert_eq!(particles.positions, samples::cloud().positions, "{i}");
+        assert_eq!(particles.warnings, ["groups beside the frames are not read: /floor"]);
+    }
+    let error = read(&path("bodies.h5")).unwrap_err().to_string();
+    assert!(error.contains("(/body0, /body1)") && error.contains("`step_1`"), "{error}");
+    assert_eq!(error, steps(&path("bodies.h5")).unwrap_err().to_string());
+    let particles = read(&path("fluids.h5")).unwrap();
+    assert_eq!(particles.positions, samples::cloud().positions);
+    let told = &particles.warnings;
+    assert!(told[0].starts_with("2 groups are joined: /step_0001/fluid1, /step_0001/fluid2;"));
+    assert_eq!(told[1], "groups that are not fluid are not read: /step_0001/walls");
+}
+
+/// By the convention of Gadget, type 0 is the gas.
+#[test]
+fn of_gadget_the_gas_is_read() {
+    let particles = read(&path("gadget.hdf5")).unwrap();
+    samples::check("gadget", &particles, Has::All);
+    assert_eq!(particles.time, Some(0.25));
+    assert_eq!(particles.warnings, ["groups that are not fluid are not read: /PartType1"]);
+}
+
+/// Soft links lead to arrays of the same file, which are read once.
+#[test]
+fn links_within_the_file_are_followed() {
+    let particles = read(&path("soft.h5")).unwrap();
+    samples::check("soft", &particles, Has::All);
+    assert!(particles.warnings.is_empty(), "{:?}", particles.warnings);
+    let error = read(&path("external.h5")).unwrap_err().to_string();
+    assert!(error.contains("(/position leads to /POSITIONS in plain.h5)"), "{error}");
+    assert!(error.contains("give the file that a link leads to"), "{error}");
+    // So many links are stored apart from the group.
+    let error = read(&path("externals.h5")).unwrap_err().to_string();
+    assert!(error.contains(" in run_07.h5, ") && error.contains(" and 6 more)"), "{error}");
+    let particles = read(&path("partly.h5")).unwrap();
+    assert_eq!(particles.positions, samples::cloud().positions);
+    let told = "links to other files are not followed: /velocity leads to /VELOCITIES in plain.h5";
+    assert_eq!(particles.warnings, [told]);
+}
+
+/// MATLAB writes a user block before the HDF5, and columns as rows.
+#[test]
+fn behind_a_user_block() {
+    for name in ["matlab.mat", "block.h5"] {
+        let particles = read(&path(name)).unwrap();
+        samples::check(name, &particles, Has::All);
+        assert_eq!((particles.format, particles.time), (Format::Hdf5, Some(0.5)), "{name}");
+        let bytes = std::fs::read(path(name)).unwrap();
+        samples::check(name, &read_bytes(&bytes, Extension::Unknown).unwrap(), Has::All);
+    }
+    let bytes = std::fs::read(path("matlab.mat")).unwrap();
+    let error = read_bytes(&bytes[..512], Extension::Unknown).unwrap_err().to_string();
+    assert!(error.contains("MATLAB 7.3"), "{error}");
+}
+
+/// A unit that is stored beside an array is read like one in the name of a column.
+#[test]
+fn units_are_part_of_the_names() {
+    let particles = read(&path("units.h5")).unwrap();
+    samples::check("units", &particles, Has::All);
+    assert_eq!(particles.time, Some(0.5));
+    let (meaning, names) = &particles.meanings[0];
+    assert_eq!((*meaning, names.as_slice()), (Meaning::Position, &["position [mm]".into()][..]));
+    let names: Vec<_> = particles.attributes.iter().map(|a| a.name.as_str()).collect();
+    for name in ["velocity [mm/s]", "density [kg/m3]", "id"] {
+        assert!(names.contains(&name), "{name}: {names:?}");
+    }
+}
+
 /// Points that are stored once belong to all frames.
 #[test]
 fn a_series_of_xdmf_is_frames() {
@@ -160,8 +253,18 @@ fn what_is_not_read_is_named() {
 fn damaged_files() {
     let mut next = numbers();
     let (mut cases, mut sound) = (0, 0);
-    for name in ["pysph.hdf5", "grid.vtkhdf", "steps.vtkhdf", "plain.h5", "steps.h5part", "h5md.h5"]
-    {
+    for name in [
+        "pysph.hdf5",
+        "grid.vtkhdf",
+        "steps.vtkhdf",
+        "plain.h5",
+        "steps.h5part",
+        "h5md.h5",
+        "ranks.h5",
+        "half.h5",
+        "externals.h5",
+        "matlab.mat",
+    ] {
         let bytes = std::fs::read(path(name)).unwrap();
         for _ in 0..super::bad::rounds(24) {
             let bytes = damaged(&bytes, &mut next);

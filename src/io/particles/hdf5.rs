@@ -7,16 +7,21 @@
 //!   parts and steps are stored in sequence; group `Steps` says where a step begins.
 //! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. If there are
 //!   several kinds of particles, those called fluid are read.
-//! - H5Part: groups `Step#N`. Other groups whose names differ only in a number are frames as well.
+//! - H5Part: groups `Step#N`. Other groups are frames if the word before a number in their name says so, or if they
+//!   have different times (see `hdf5_groups`).
+//! - Gadget and SWIFT: the gas, group `PartType0`; the time is attribute `Time` of `Header`.
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
 //! - Positions of shape (frames, particles, 3) in any group, or components of shape (frames, particles). Other arrays
 //!   of the group with the same number of frames are attributes of these particles.
 //! - Other files: the group with an array of positions; the particles of several such groups are joined.
 //!
+//! A unit in attribute `units` or `unit` of an array is added to its name: `position [mm]`.
+//!
 //! Of an HDF5 file only arrays of the requested frame that have a meaning are read. Memory use is limited by the
 //! file's size.
 
-use std::io::Read as _;
+use std::collections::{BTreeMap, HashMap};
+use std::io::{Read as _, Seek as _, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,26 +29,50 @@ use std::sync::Arc;
 use hdf5_reader::error::Error;
 use hdf5_reader::group::Group;
 use hdf5_reader::storage::{BytesStorage, FileStorage, Storage};
-use hdf5_reader::{Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
+use hdf5_reader::{
+    ByteOrder, Dataset, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem,
+};
 
 use super::asked::Asked;
 use super::bytes::unpack_limit;
 use super::cells;
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
+use super::hdf5_groups::{self, Order};
+use super::hdf5_links;
 use super::names;
 use super::vtk_xml::{is_point, mesh_warning};
 use super::{Format, Particles};
 
 /// Magic bytes of HDF5.
-pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
+const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// Where HDF5 may begin: at 0, or behind a user block, as MATLAB 7.3 writes one.
+fn starts() -> impl Iterator<Item = usize> {
+    std::iter::once(0).chain((9..=20).map(|power| 1 << power))
+}
 
 /// Whether a file is HDF5.
 fn is_one(path: &Path) -> bool {
-    let mut start = Vec::new();
-    let file = std::fs::File::open(path);
-    let read = file.and_then(|file| file.take(MAGIC.len() as u64).read_to_end(&mut start));
-    read.is_ok() && start == MAGIC
+    let Ok(mut file) = std::fs::File::open(path) else { return false };
+    let mut has = |at: usize, word: &[u8]| {
+        let mut found = Vec::new();
+        let sought = file.seek(SeekFrom::Start(at as u64));
+        let read = sought.and_then(|_| (&file).take(word.len() as u64).read_to_end(&mut found));
+        read.is_ok() && found == word
+    };
+    is_here(&mut has)
+}
+
+/// Whether these bytes are HDF5.
+pub(super) fn is_in(bytes: &[u8]) -> bool {
+    is_here(&mut |at, word| bytes.get(at..).is_some_and(|rest| rest.starts_with(word)))
+}
+
+/// Whether a content is HDF5; `has` tells whether it has certain bytes at an offset.
+fn is_here(has: &mut dyn FnMut(usize, &[u8]) -> bool) -> bool {
+    // The first file in a tar archive begins at 512.
+    starts().any(|at| has(at, MAGIC)) && !has(257, b"ustar")
 }
 
 /// Times of the frames of a file; `None` for another format.
@@ -73,6 +102,8 @@ pub(super) struct File {
 struct Frame {
     time: Option<f64>,
     parts: Vec<Part>,
+    /// Whether the names of the parts say that they are pieces of a whole.
+    pieces: bool,
 }
 
 /// The particles of a frame that are in one group.
@@ -158,8 +189,10 @@ impl File {
         if let Ok(grid) = root.group("VTKHDF") {
             return of_vtk(&grid, self.limit);
         }
-        let mut frames = of_others(&root, self.limit)?;
-        let time = root.group("solver_data").ok().and_then(|data| number(&data, &["t"]));
+        let mut frames = of_others(&self.file, &root, self.limit)?;
+        let time = [("solver_data", "t"), ("Header", "Time")]
+            .into_iter()
+            .find_map(|(group, name)| number(&root.group(group).ok()?, &[name]));
         if let [frame] = frames.as_mut_slice() {
             frame.time = frame.time.or(time);
         }
@@ -199,6 +232,12 @@ fn type_of(dataset: &Dataset) -> AttributeType {
     match dataset.dtype() {
         Datatype::FloatingPoint { size: 4, .. } => T::F32,
         Datatype::FloatingPoint { size: 8, .. } => T::F64,
+        // Byte 13 is the number of bits of the exponent; bfloat16 has 8.
+        Datatype::FloatingPoint { size: 2, .. }
+            if dataset.raw_datatype().is_ok_and(|raw| raw.get(13) == Some(&5)) =>
+        {
+            T::F16
+        }
         Datatype::FixedPoint { size, signed, .. } => match (size, signed) {
             (1, true) => T::I8,
             (1, false) => T::U8,
@@ -212,6 +251,32 @@ fn type_of(dataset: &Dataset) -> AttributeType {
         },
         Datatype::String { .. } => T::Text,
         _ => T::Other,
+    }
+}
+
+/// A number of half precision, which the crate does not convert.
+#[derive(Clone)]
+struct Half(half::f16);
+
+impl H5Type for Half {
+    fn hdf5_type() -> Datatype {
+        Datatype::FloatingPoint { size: 2, byte_order: ByteOrder::LittleEndian }
+    }
+
+    fn from_bytes(bytes: &[u8], ty: &Datatype) -> Result<Self, Error> {
+        match (bytes.first_chunk(), ty) {
+            (Some(bytes), Datatype::FloatingPoint { size: 2, byte_order }) => {
+                Ok(Self(match byte_order {
+                    ByteOrder::LittleEndian => half::f16::from_le_bytes(*bytes),
+                    ByteOrder::BigEndian => half::f16::from_be_bytes(*bytes),
+                }))
+            }
+            _ => Err(Error::InvalidData("half precision in another size".into())),
+        }
+    }
+
+    fn element_size(_: &Datatype) -> usize {
+        2
     }
 }
 
@@ -261,15 +326,15 @@ fn numbers(
     limit: usize,
 ) -> Result<Data, ReadError> {
     use AttributeType as T;
-    let Some(size) = ty.size().filter(|_| ty != T::F16) else { return Ok(Data::NONE) };
+    let Some(size) = ty.size() else { return Ok(Data::NONE) };
     let (first, rest) = dataset.shape().split_first().map_or((1, &[][..]), |(n, rest)| (*n, rest));
     let some = match rows {
         Rows::All => first,
         Rows::Some(some) => some.end.min(first).saturating_sub(some.start),
         Rows::Frame(_) => 1,
     };
-    // Integers are held in 8 bytes.
-    let size = if matches!(Data::for_type(ty), Data::Int(_)) { 8 } else { size };
+    // Integers are held in 8 bytes, half precision in 4.
+    let size = if matches!(Data::for_type(ty), Data::Int(_)) { 8 } else { size.max(4) };
     // Empty rows take time as well, so they count as one byte.
     let bytes = rest.iter().fold(some.saturating_mul(size), |n, d| n.saturating_mul((*d).max(1)));
     if bytes > limit as u64 {
@@ -286,6 +351,10 @@ fn numbers(
             }};
         }
         match (&mut data, ty) {
+            (Data::F32(v), T::F16) => {
+                let read = dataset.read_slice::<Half>(&selection).map_err(failed)?;
+                v.extend(read.iter().map(|x| x.0.to_f32()));
+            }
             (Data::F32(v), T::F32) => read!(f32, v, f32),
             (Data::F64(v), T::F64) => read!(f64, v, f64),
             (Data::Int(v), T::I8) => read!(i8, v, i64),
@@ -357,10 +426,31 @@ impl Array {
         Self { name: name.into(), dataset, rows }
     }
 
-    /// Whether it is a vector whose components are stored one after the other.
+    /// Whether it is a vector whose components are stored one after the other, or a column of MATLAB, which stores a
+    /// row.
     fn turned(&self) -> bool {
-        let turned = matches!(self.dataset.shape(), [2 | 3, n] if *n > 3);
-        turned && matches!(self.rows, Rows::All) && names::is_vector(&self.name)
+        let turned = match self.dataset.shape() {
+            [1, n] => *n > 3,
+            [2 | 3, n] => *n > 3 && names::is_vector(&self.name),
+            _ => false,
+        };
+        turned && matches!(self.rows, Rows::All)
+    }
+
+    /// Adds a unit that is stored beside the values to a name with a meaning, where columns of a table have it.
+    fn with_unit(mut self) -> Self {
+        let unit = ["units", "unit"].into_iter().find_map(|name| {
+            let unit = self.dataset.attribute(name).ok()?.read_string().ok()?;
+            Some(unit.trim_matches(|c: char| c == '\0' || c.is_whitespace()).to_string())
+        });
+        let unit = unit.filter(|unit| unit.starts_with(char::is_alphabetic) && unit.len() <= 16);
+        if let Some(unit) = unit.filter(|_| names::known(&names::plain(&self.name))) {
+            let name = format!("{} [{unit}]", self.name);
+            if names::plain(&name) == names::plain(&self.name) {
+                self.name = name;
+            }
+        }
+        self
     }
 
     /// Number of particles, and of values per particle.
@@ -385,7 +475,7 @@ impl Array {
 
 impl Frame {
     fn read(self, asked: &Asked, limit: usize) -> Result<Particles, ReadError> {
-        let Self { time, mut parts } = self;
+        let Self { time, mut parts, pieces } = self;
         if parts.iter().any(Part::has_some) {
             parts.retain(Part::has_some);
         }
@@ -393,12 +483,13 @@ impl Frame {
         table.time = time;
         let several = parts.len() > 1;
         if several {
-            let names: Vec<_> = parts.iter().map(|part| part.name.as_str()).collect();
-            table.warnings.push(format!(
-                "{} groups are joined: {}; if some of them are walls, give the file of the water alone",
-                names.len(),
-                names.join(", ")
-            ));
+            let (count, names) = (parts.len(), listed(parts.iter().map(|part| part.name.as_str())));
+            table.warnings.push(match pieces {
+                true => format!("{count} groups are read as pieces of one frame: {names}"),
+                false => format!(
+                    "{count} groups are joined: {names}; if some of them are walls, give the file of the water alone"
+                ),
+            });
         }
         let parts: Vec<Part> = parts.into_iter().map(Part::without_empty).collect();
         // Memory for the arrays as read, for the particles, and for results computed from them; in total 4 times the
@@ -531,7 +622,7 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
             };
             if frames.len() <= step {
                 let time = steps.as_ref().and_then(|steps| steps.values.get(step).copied());
-                frames.push(Frame { time, parts: Vec::new() });
+                frames.push(Frame { time, parts: Vec::new(), pieces: false });
             }
             if let Some(frame) = frames.get_mut(step) {
                 frame.parts.push(part);
@@ -733,140 +824,222 @@ struct Found {
     frames: Frames,
 }
 
+impl Found {
+    /// The dataset of the positions, which differs between groups unless one is a link to the other.
+    fn address(&self) -> u64 {
+        let mut arrays = self.frames.iter().flat_map(|(_, arrays)| arrays);
+        let position =
+            |array: &&Array| names::is_position(&array.name) || names::is_component(&array.name);
+        arrays.find(position).map_or(u64::MAX, |array| array.dataset.address())
+    }
+
+    /// The time, unless there are several.
+    fn time(&self) -> Option<f64> {
+        match self.frames.as_slice() {
+            [(time, _)] => *time,
+            _ => None,
+        }
+    }
+}
+
+/// The first of some names.
+fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let mut names = names.into_iter();
+    let first: Vec<_> = names.by_ref().take(24).collect();
+    let more = match names.count() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{}{more}", first.join(", "))
+}
+
 /// The frames of a file that is not VTKHDF, found by its arrays and by the names of its groups.
-fn of_others(root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
-    let (mut found, mut looked, mut seen) = (Vec::new(), 0, Vec::new());
-    search(root, ("", 0), &mut looked, &mut found, &mut seen, limit)?;
-    let frame = |time, parts| Frame { time, parts };
-    let part = |name: &str, arrays| Part { name: name.into(), arrays, warnings: Vec::new() };
+fn of_others(file: &Hdf5File, root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
+    let mut search = Search { file, limit, looked: 0, found: vec![], seen: vec![], links: vec![] };
+    search.group(root, ("", 0), None)?;
+    let Search { mut found, seen, links, .. } = search;
+    if found.is_empty() && !links.is_empty() {
+        let links = listed(links.iter().map(String::as_str));
+        return Err(ReadError::Unsupported {
+            what: format!("an HDF5 file that has no positions but links to other files ({links})"),
+            advice: "give the file that a link leads to, or copy its data into this one",
+        });
+    }
     if found.is_empty() {
         let names: Vec<_> = seen.into_iter().take(24).collect();
         let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
         return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
     }
-    // Groups with other names beside the fluid hold walls.
+    let mut told = Vec::new();
+    if !links.is_empty() {
+        let links = listed(links.iter().map(String::as_str));
+        told.push(format!("links to other files are not followed: {links}"));
+    }
+    // Of groups with the same positions, the one with the most arrays is read, and of these one with a number.
+    let worth = |found: &Found| {
+        let arrays = found.frames.first().map_or(0, |(_, arrays)| arrays.len());
+        (arrays, found.path.contains(|c: char| c.is_ascii_digit()))
+    };
+    let mut best = HashMap::new();
+    for found in &found {
+        let best = best.entry(found.address()).or_insert((worth(found), found.path.clone()));
+        if worth(found) > best.0 {
+            *best = (worth(found), found.path.clone());
+        }
+    }
+    found.retain(|found| best.get(&found.address()).is_some_and(|(_, path)| *path == found.path));
+    // Groups with other names beside the fluid hold walls. Gadget calls gas `PartType0`.
+    let gas = |found: &Found| found.path.to_lowercase().split('/').any(|name| name == "parttype0");
     let fluid = |found: &Found| {
         let path = found.path.to_lowercase();
         ["fluid", "water", "liquid"].iter().any(|name| path.contains(name))
     };
-    let mut passed = Vec::new();
-    if found.iter().any(fluid) {
-        found.retain(|found| {
-            let kept = fluid(found);
-            if !kept {
-                passed.push(found.path.clone());
-            }
-            kept
-        });
-    }
-    let told = (!passed.is_empty()).then(|| {
-        let some: Vec<_> = passed.iter().take(24).map(String::as_str).collect();
-        format!("groups that are not fluid are not read: {}", some.join(", "))
-    });
-    let tell = |frames: &mut [Frame]| {
-        let parts = frames.iter_mut().filter_map(|frame| frame.parts.first_mut());
-        parts.for_each(|part| part.warnings.extend(told.clone()));
+    let mut keep = |kept: &dyn Fn(&Found) -> bool| {
+        if !found.iter().any(kept) {
+            return;
+        }
+        let (fluids, passed): (Vec<_>, Vec<_>) = found.drain(..).partition(kept);
+        if !passed.is_empty() {
+            let passed = listed(passed.iter().map(|found| found.path.as_str()));
+            told.push(format!("groups that are not fluid are not read: {passed}"));
+        }
+        found = fluids;
     };
-    // Groups that differ in a number are frames.
-    let numbers: Option<Vec<f64>> =
-        found.iter().map(|found: &Found| in_name(&found.path)).collect();
-    let texts = |path: &str| path.replace(|c: char| c.is_ascii_digit() || "+-.eE".contains(c), "");
-    let first = found.first().map(|found| texts(&found.path)).unwrap_or_default();
-    let alike = found.iter().all(|found| texts(&found.path) == first);
-    if let (Some(numbers), true, true) = (numbers, alike, found.len() > 1) {
-        let mut all: Vec<(f64, Found)> = numbers.into_iter().zip(found).collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let frames = all.into_iter().flat_map(|(_, Found { path, frames })| {
-            frames.into_iter().map(move |(time, arrays)| frame(time, vec![part(&path, arrays)]))
-        });
-        let mut frames: Vec<Frame> = frames.collect();
-        tell(&mut frames);
-        return Ok(frames);
-    }
+    keep(&gas);
+    keep(&fluid);
+    let groups: Vec<_> = found.iter().map(|found| (found.path.as_str(), found.time())).collect();
+    let mut frames = match hdf5_groups::order(&groups) {
+        Order::Unsure if found.iter().all(|found| found.frames.len() < 2) => {
+            let groups = listed(groups.iter().map(|(path, _)| *path));
+            return Err(ReadError::Unsupported {
+                what: format!(
+                    "an HDF5 file of several groups whose names do not say what they are ({groups})"
+                ),
+                advice: "rename them, in h5py with h.move('OLD', 'NEW'): `water` is read alone, `step_1` and \
+                         `step_2` are frames, `rank_1` and `rank_2` are pieces of one frame",
+            });
+        }
+        Order::Frames(of) => {
+            let (mut all, mut beside) = (BTreeMap::<usize, Vec<Found>>::new(), Vec::new());
+            for (found, frame) in found.into_iter().zip(of) {
+                match frame {
+                    Some(frame) => all.entry(frame).or_default().push(found),
+                    None => beside.push(found.path),
+                }
+            }
+            if !beside.is_empty() {
+                let beside = listed(beside.iter().map(String::as_str));
+                told.push(format!("groups beside the frames are not read: {beside}"));
+            }
+            all.into_values().flat_map(merged).collect()
+        }
+        Order::Together | Order::Unsure => merged(found),
+    };
+    let parts = frames.iter_mut().filter_map(|frame| frame.parts.first_mut());
+    parts.for_each(|part| part.warnings.extend(told.clone()));
+    Ok(frames)
+}
+
+/// Joins groups frame by frame.
+fn merged(found: Vec<Found>) -> Vec<Frame> {
+    let paths: Vec<_> = found.iter().map(|found| found.path.as_str()).collect();
+    let pieces = hdf5_groups::are_pieces(&paths);
     let mut frames: Vec<Frame> = Vec::new();
     for Found { path, frames: own } in found {
         for (i, (time, arrays)) in own.into_iter().enumerate() {
             if frames.len() <= i {
-                frames.push(frame(time, Vec::new()));
+                frames.push(Frame { time, parts: Vec::new(), pieces });
             }
             if let Some(frame) = frames.get_mut(i) {
-                frame.parts.push(part(&path, arrays));
+                frame.parts.push(Part { name: path.clone(), arrays, warnings: Vec::new() });
             }
         }
     }
-    tell(frames.get_mut(..1).unwrap_or_default());
-    Ok(frames)
+    frames
 }
 
-/// The last number in a name.
-fn in_name(name: &str) -> Option<f64> {
-    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
-    let end = name.rfind(|c: char| c.is_ascii_digit())? + 1;
-    let head = name.get(..end)?;
-    let start = head.rfind(|c| !number(c)).map_or(0, |i| {
-        i + head.get(i..).map_or(1, |rest| rest.chars().next().map_or(1, char::len_utf8))
-    });
-    let text = head.get(start..)?;
-    // A minus may be a separator before the number.
-    (0..text.len()).find_map(|from| text.get(from..)?.parse().ok())
-}
-
-/// Searches this group and those below it for positions.
-fn search(
-    group: &Group,
-    (path, depth): (&str, usize),
-    looked: &mut usize,
-    found: &mut Vec<Found>,
-    seen: &mut Vec<String>,
+/// A search for positions.
+struct Search<'a> {
+    file: &'a Hdf5File,
     limit: usize,
-) -> Result<(), ReadError> {
-    *looked += 1;
-    if *looked > GROUPS || depth > DEEP {
-        return Ok(());
+    /// Number of groups that were searched.
+    looked: usize,
+    found: Vec<Found>,
+    /// Arrays, for messages.
+    seen: Vec<String>,
+    /// Links to other files, for messages.
+    links: Vec<String>,
+}
+
+impl Search<'_> {
+    /// Searches this group and those below it. `time` is that of the groups around it.
+    fn group(
+        &mut self,
+        group: &Group,
+        (path, depth): (&str, usize),
+        time: Option<f64>,
+    ) -> Result<(), ReadError> {
+        self.looked += 1;
+        if self.looked > GROUPS || depth > DEEP {
+            return Ok(());
+        }
+        let (groups, datasets) = group.members().map_err(failed)?;
+        self.links.extend(hdf5_links::external(self.file, group, path).map_err(failed)?);
+        let arrays: Vec<Array> = datasets
+            .into_iter()
+            .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All).with_unit())
+            .collect();
+        let time = number(group, &["TimeValue", "time", "Time", "t"])
+            .or_else(|| self.time(&arrays))
+            .or(time);
+        self.seen.extend(arrays.iter().map(|array| match array.dataset.dtype() {
+            Datatype::Compound { .. } => format!(
+                "{path}/{} (a table: save each of its columns as a dataset, h[name] = table[name] in h5py)",
+                array.name
+            ),
+            _ => format!("{path}/{}", array.name),
+        }));
+        let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
+        if names::may_have_positions(&names) {
+            let frames = stacked(&arrays, self.limit)?.unwrap_or_else(|| vec![(time, arrays)]);
+            self.found.push(Found { path: path.into(), frames });
+        }
+        // H5MD: one group per property, with its values in one dataset.
+        let value = |group: &Group| {
+            let dataset = group.dataset("value").ok()?;
+            let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;
+            Some((leaf(group.name()), dataset, frames))
+        };
+        let position = groups.iter().find(|group| leaf(group.name()) == "position");
+        if let Some((_, _, frames)) = position.and_then(value).filter(|(_, d, _)| d.ndim() == 3) {
+            let all: Vec<_> = groups.iter().filter_map(value).collect();
+            let times = position.and_then(|position| {
+                let dataset = position.dataset("time").ok()?;
+                numbers(&dataset, type_of(&dataset), &Rows::All, self.limit).ok()
+            });
+            let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
+                let own = all.iter().filter(|(_, _, count)| *count > frame);
+                let arrays = own.map(|(name, dataset, _)| {
+                    Array::new(name, dataset.clone(), Rows::Frame(frame)).with_unit()
+                });
+                (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
+            });
+            self.found.push(Found { path: path.into(), frames: frames.collect() });
+            return Ok(());
+        }
+        for inner in &groups {
+            let path = format!("{path}/{}", leaf(inner.name()));
+            self.group(inner, (&path, depth + 1), time)?;
+        }
+        Ok(())
     }
-    let (groups, datasets) = group.members().map_err(failed)?;
-    let time = number(group, &["TimeValue", "time", "Time", "t"]);
-    let arrays: Vec<Array> = datasets
-        .into_iter()
-        .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All))
-        .collect();
-    seen.extend(arrays.iter().map(|array| match array.dataset.dtype() {
-        Datatype::Compound { .. } => format!(
-            "{path}/{} (a table: save each of its columns as a dataset, h[name] = table[name] in h5py)",
-            array.name
-        ),
-        _ => format!("{path}/{}", array.name),
-    }));
-    let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
-    if names::may_have_positions(&names) {
-        let frames = stacked(&arrays, limit)?.unwrap_or_else(|| vec![(time, arrays)]);
-        found.push(Found { path: path.into(), frames });
+
+    /// The time in a dataset of one value.
+    fn time(&self, arrays: &[Array]) -> Option<f64> {
+        let time = arrays.iter().find(|array| {
+            let one = array.dataset.shape().iter().all(|n| *n == 1);
+            one && ["time", "times", "timevalue", "t"].contains(&names::plain(&array.name).as_str())
+        })?;
+        numbers(&time.dataset, type_of(&time.dataset), &Rows::All, self.limit).ok()?.f64(0)
     }
-    // H5MD: one group per property, with its values in one dataset.
-    let value = |group: &Group| {
-        let dataset = group.dataset("value").ok()?;
-        let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;
-        Some((leaf(group.name()), dataset, frames))
-    };
-    let position = groups.iter().find(|group| leaf(group.name()) == "position");
-    if let Some((_, _, frames)) = position.and_then(value).filter(|(_, d, _)| d.ndim() == 3) {
-        let all: Vec<_> = groups.iter().filter_map(value).collect();
-        let times = position.and_then(|position| {
-            let dataset = position.dataset("time").ok()?;
-            numbers(&dataset, type_of(&dataset), &Rows::All, limit).ok()
-        });
-        let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
-            let own = all.iter().filter(|(_, _, count)| *count > frame);
-            let arrays =
-                own.map(|(name, dataset, _)| Array::new(name, dataset.clone(), Rows::Frame(frame)));
-            (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
-        });
-        found.push(Found { path: path.into(), frames: frames.collect() });
-        return Ok(());
-    }
-    for inner in &groups {
-        let path = format!("{path}/{}", leaf(inner.name()));
-        search(inner, (&path, depth + 1), looked, found, seen, limit)?;
-    }
-    Ok(())
 }

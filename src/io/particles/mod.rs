@@ -51,6 +51,10 @@ mod format;
 mod geo;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+#[cfg(feature = "hdf5")]
+mod hdf5_groups;
+#[cfg(feature = "hdf5")]
+mod hdf5_links;
 mod head;
 mod heading;
 mod index;
@@ -280,7 +284,7 @@ fn read_plain(
         return read_plain(&text, hint, gzip, asked);
     }
     #[cfg(feature = "hdf5")]
-    if bytes.starts_with(hdf5::MAGIC) {
+    if hdf5::is_in(bytes) {
         return hdf5::File::of_bytes(bytes)?.read(asked);
     }
     let content = || source::Content::of_bytes(bytes);

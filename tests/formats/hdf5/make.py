@@ -84,3 +84,31 @@ with h5py.File('numbered.h5','w') as f:
 with h5py.File('hollow.h5','w') as f: g=f.create_group('particles/water/position'); g['value']=pos[None]; g.create_dataset('time',shape=(1<<60,0),dtype='f8')
 with h5py.File('table.h5','w') as f: f['particles']=np.zeros(3,dtype=[('x','f4'),('y','f4'),('z','f4')])
 with h5py.File('lzf.h5','w') as f: f.create_dataset('POSITIONS',data=pos,compression='lzf')
+# Groups with numbers that count steps, pieces, kinds of particles or anything else.
+def groups(name,of,**attrs):
+    with h5py.File(name,'w') as f:
+        for n,(rows,off) in of.items():
+            g=f.create_group(n); g['position']=pos[rows]+np.float32([off,0,0]); g['velocity']=vel[rows]; g['id']=ids[rows]
+        for n,time in attrs.items(): f[n].attrs['time']=time
+every=slice(None)
+groups('ranks.h5',{f't_{t}/rank_{k}':(slice(6*k,6+6*k),t) for t in (0,1.5) for k in (0,1)})
+groups('bodies.h5',{'body0':(every,0),'body1':(every,5)})
+groups('timed.h5',{'body0':(every,1),'body1':(every,0)},body0=0.5,body1=0.25)
+groups('fluids.h5',{'step_0001/fluid1':(slice(0,6),0),'step_0001/fluid2':(slice(6,N),0),'step_0001/walls':(every,5)})
+groups('beside.h5',{'floor':(every,5),'step_9':(every,0),'step_10':(every,1)})
+with h5py.File('gadget.hdf5','w') as f:
+    f.create_group('Header').attrs['Time']=0.25
+    for t,off in ((0,0),(1,5)): g=f.create_group(f'PartType{t}'); g['Coordinates']=(pos+[off,0,0]).astype('f8'); g['Velocities']=vel; g['ParticleIDs']=ids.astype('u8'); g['Density']=rho
+# Half precision of both byte orders, links, a user block, units.
+with h5py.File('half.h5','w') as f: f['position']=pos.astype('<f2'); f['velocity']=vel.astype('>f2'); f.create_dataset('density',data=rho.astype('f2'),chunks=(4,),compression='gzip'); f['id']=ids
+with h5py.File('soft.h5','w') as f: f['data/pos']=pos; f['data/rho']=rho; f['position']=h5py.SoftLink('/data/pos'); f['velocity']=vel; f['density']=h5py.SoftLink('/data/rho'); f['id']=ids
+with h5py.File('external.h5','w') as f: f['position']=h5py.ExternalLink('plain.h5','/POSITIONS'); f['id']=ids
+with h5py.File('externals.h5','w',libver='latest') as f:
+    for k in range(30): f[f'step_{k}']=h5py.ExternalLink(f'run_{k:02d}.h5','/')
+with h5py.File('partly.h5','w') as f: f['position']=pos; f['velocity']=h5py.ExternalLink('plain.h5','/VELOCITIES')
+with h5py.File('matlab.mat','w',userblock_size=512) as f: f['pos']=pos.T.copy(); f['vel']=vel.T.copy(); f['rho']=rho[None]; f['ids']=ids[None].astype('f8'); f['time']=np.array([[0.5]])
+with open('matlab.mat','r+b') as f: f.write(b'MATLAB 7.3 MAT-file, Platform: GLNXA64, Created on: Wed May 01 10:00:00 2024 HDF5 schema 1.00 .'.ljust(116)+b' '*8+b'\x00\x02IM')
+with h5py.File('block.h5','w',userblock_size=2048,libver='latest') as f: f['position']=pos; f['velocity']=vel; f['density']=rho; f['id']=ids; f['time']=0.5
+with h5py.File('units.h5','w') as f:
+    f['position']=pos; f['velocity']=vel; f['density']=rho; f['id']=ids; f['time']=0.5
+    for n,u in (('position','mm'),('velocity','mm/s'),('density',np.bytes_('kg/m3')),('id','1'),('time','s')): f[n].attrs['units']=u
