@@ -59,6 +59,11 @@ const MAGIC: &[(&[u8], &str, &str)] = &[
         "a file of MATLAB",
         "save its arrays as NPZ: np.savez('out.npz', **scipy.io.loadmat('FILE'))",
     ),
+    (
+        b"MATLAB 7.3",
+        "a file of MATLAB 7.3 without readable HDF5 in it",
+        "save its arrays as NPZ: h = h5py.File('FILE'); np.savez('out.npz', position=h['pos'][()].T)",
+    ),
     (b"\xdf\x65\xdf\x65\xdf\x65\xdf\x65", "a trajectory of HOOMD (GSD)", EXPORT),
     (
         b"LAMMPS",
