@@ -345,6 +345,8 @@ fn empty_fields_at_the_end_of_the_first_row() {
         assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{row}");
         let velocities = p.velocities.unwrap();
         assert!(velocities[0][2].is_nan() && velocities[1] == [7.0, 8.0, 9.0], "{row}");
+        let [told] = &p.warnings[..] else { panic!("{row}: {:?}", p.warnings) };
+        assert!(told.contains("1 of 2 velocities are missing"), "{row}: {told}");
     }
 }
 

@@ -211,6 +211,8 @@ pub(super) struct Survey {
     samples: Vec<[f64; 3]>,
     step: usize,
     not_finite: usize,
+    /// Number of velocities that are not finite; a missing one is read as NaN.
+    unmoved: usize,
     ids: Option<Dropped>,
     kinds: Option<Dropped>,
     places: Repeats,
@@ -233,6 +235,7 @@ impl Survey {
             samples: Vec::new(),
             step: 1,
             not_finite: 0,
+            unmoved: 0,
             ids: None,
             kinds: None,
             places: Repeats::default(),
@@ -383,6 +386,7 @@ impl Survey {
         }
         if self.asks {
             self.not_finite += super::count_non_finite(&particles.positions);
+            self.unmoved += particles.velocities.as_deref().map_or(0, super::count_non_finite);
             particles.positions.iter().for_each(|p| self.places.add_place(*p));
             particles.ids.iter().flatten().for_each(|id| self.numbers.add(u64::from(*id)));
         }
@@ -433,6 +437,14 @@ impl Survey {
                 self.kept()
             )
         });
+        let unmoved = (self.unmoved > 0).then(|| {
+            format!(
+                "{} of {} velocities are missing or not finite (NaN or infinite): foam and motion blur of these \
+                 particles are not right",
+                self.unmoved,
+                self.kept()
+            )
+        });
         let dropped =
             [(&self.ids, " from 0 on"), (&self.kinds, " from 0 to 4294967295")].into_iter();
         let dropped = dropped.filter_map(|(dropped, limits)| {
@@ -460,7 +472,13 @@ impl Survey {
             )
         });
         let told = origin.into_iter().chain(resolution_warning(&self.samples)).chain(ghosts);
-        Ok(told.chain(not_finite).chain(dropped).chain(repeated).chain(doubled).collect())
+        Ok(told
+            .chain(not_finite)
+            .chain(unmoved)
+            .chain(dropped)
+            .chain(repeated)
+            .chain(doubled)
+            .collect())
     }
 
     /// Whether the particles belong to several frames.
