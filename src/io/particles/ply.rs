@@ -230,7 +230,13 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
         }
     }
     let rows = ElementRows::new(vertex, encoding, &text)?;
-    Ok(Table { columns, about, rows: Box::new(Vertices { text, rows, taken }) })
+    // Nothing may follow the vertices in a text if they are the last element.
+    let behind = elements.iter().skip(before.len() + 1);
+    let last = encoding == Encoding::Ascii
+        && vertex.count > 0
+        && behind.fold(0, |sum: u64, element| sum.saturating_add(element.count)) == 0;
+    let last = last.then_some(vertex.count);
+    Ok(Table { columns, about, rows: Box::new(Vertices { text, rows, taken, last }) })
 }
 
 struct Vertices<'a> {
@@ -238,11 +244,26 @@ struct Vertices<'a> {
     rows: ElementRows,
     /// For each property, the index of the column that takes its values.
     taken: Vec<Option<usize>>,
+    /// Number of vertices, if they end the file.
+    last: Option<u64>,
 }
 
 impl RowReader for Vertices<'_> {
     fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError> {
-        self.rows.next(&mut self.text, &self.taken, columns)
+        if self.rows.next(&mut self.text, &self.taken, columns)? {
+            return Ok(true);
+        }
+        let Some(count) = self.last else { return Ok(false) };
+        self.text.skip_space()?;
+        let place = self.text.place();
+        match self.text.token()? {
+            None => Ok(false),
+            Some(more) => Err(ReadError::malformed(
+                format!("nothing after the {count} rows of {}", self.rows.what),
+                show(more),
+                place,
+            )),
+        }
     }
 }
 
