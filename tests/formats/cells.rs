@@ -331,6 +331,47 @@ fn points_of_a_mesh_beside_particles_are_left_out() {
             assert_eq!(ids, expected, "{name} in parts of {most}");
         }
     }
+    let old = |version: &str, kind: &str, cells: &str| {
+        let points: String = (0..6).map(|x| format!("{x} 0 0 ")).collect();
+        format!(
+            "# vtk DataFile Version {version}\nt\nASCII\nDATASET {kind}\nPOINTS 6 float\n{points}\n{cells}\n\
+             POINT_DATA 6\nSCALARS id int\nLOOKUP_TABLE default\n0 1 2 3 4 5\n"
+        )
+    };
+    for (name, text, expected) in [
+        (
+            "polygons",
+            old("4.2", "POLYDATA", "VERTICES 3 6\n1 0 1 2 1 1\nPOLYGONS 1 4\n3 3 4 5"),
+            [0, 1, 2],
+        ),
+        ("some", old("4.2", "POLYDATA", "VERTICES 1 4\n3 5 1 3"), [1, 3, 5]),
+        (
+            "version 5",
+            old(
+                "5.1",
+                "POLYDATA",
+                "VERTICES 3 3\nOFFSETS vtktypeint64\n0 1 3\nCONNECTIVITY vtktypeint64\n3 4 5\nPOLYGONS 2 3\n\
+                 OFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n0 1 2",
+            ),
+            [3, 4, 5],
+        ),
+        (
+            "grid",
+            old(
+                "4.2",
+                "UNSTRUCTURED_GRID",
+                "CELLS 4 10\n1 0 1 2 3 1 3 4 1 5\nCELL_TYPES 4\n1 1 5 1",
+            ),
+            [0, 2, 5],
+        ),
+    ] {
+        let p = parsed(&text, Extension::Vtk);
+        assert_eq!(p.ids, Some(expected.to_vec()), "{name}");
+        assert!(p.warnings[0].contains("3 of 6 points are left out"), "{name}: {:?}", p.warnings);
+        let parts = Parts::of_bytes(text.as_bytes(), Extension::Vtk, 2).unwrap();
+        let ids: Vec<u32> = parts.flat_map(|part| part.unwrap().ids.unwrap()).collect();
+        assert_eq!(ids, expected, "{name}");
+    }
     for (name, text, mesh) in [
         (
             "faces between particles",

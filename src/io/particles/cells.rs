@@ -36,6 +36,37 @@ pub(super) struct Lists<'a> {
     pub(super) length: u64,
 }
 
+impl Lists<'_> {
+    /// The points of vertices and those of all other cells, if the lists can be read. `vertex` says which cells are
+    /// vertices.
+    pub(super) fn split(&self, vertex: impl Fn(usize) -> bool) -> Option<(Vec<u32>, Vec<u32>)> {
+        let all = integers(&self.points, self.length)?;
+        let sums = match &self.ends {
+            Ends::Inside => None,
+            Ends::Sums(track, first) => {
+                let sums = integers(track, self.cells.saturating_add(1 - first.min(&1)))?;
+                Some(sums.get(usize::from(*first == 0)..)?.to_vec())
+            }
+        };
+        let (mut vertices, mut others) = (Vec::new(), Vec::new());
+        let mut at = 0_usize;
+        for cell in 0..usize::try_from(self.cells).ok()? {
+            let end = match &sums {
+                Some(sums) => *sums.get(cell)? as usize,
+                None => {
+                    let size = *all.get(at)? as usize;
+                    at += 1;
+                    at.checked_add(size)?
+                }
+            };
+            let list = if vertex(cell) { &mut vertices } else { &mut others };
+            list.extend_from_slice(all.get(at..end)?);
+            at = end;
+        }
+        Some((vertices, others))
+    }
+}
+
 /// The cells of a file, piece by piece, and the point of each.
 #[derive(Clone, Default)]
 pub(super) struct Cells {

@@ -10,11 +10,14 @@
 //! The reader is our own, because the crate vtkio (0.6) refuses the cells of version 5.1 as VTK 9 and meshio
 //! write them (`OFFSETS vtktypeint64`).
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use super::Format;
 use super::arrays::{self, Array, Segment, Stored};
 use super::asked::Asked;
 use super::bytes::show;
-use super::cells::{self, Cells, Ends, Lists};
+use super::cells::{self, Cells, Ends, Lists, Vertices};
 use super::columns::{Attribute, AttributeType, Column, Data, PLACED};
 use super::error::{Place, ReadError};
 use super::plan::{About, Plan, Track};
@@ -40,15 +43,29 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
         mut on_cells,
         list,
         others,
+        types,
         ..
     } = found;
     let Some(points) = points else {
         return Err(ReadError::malformed("a POINTS section", "none", Place::Unknown));
     };
-    if found_cells.0 > 0 && found_cells.2 == 0 {
-        warnings.push(mesh_warning(found_cells.0, found_cells.1));
-    }
     let count = points.rows;
+    let mixed = match &types {
+        Some(types) => types.rows != count,
+        // Lines may join particles.
+        None => found_cells.2 > 0 && (found_cells.0 > 0 || (others == 0 && found_cells.2 < count)),
+    };
+    let particles = match list.clone().filter(|_| mixed) {
+        Some(list) => particles(list.open(content, binary)?, types, content, binary, count)?,
+        None => None,
+    };
+    match &particles {
+        Some((_, told)) => warnings.push(told.clone()),
+        None if found_cells.0 > 0 && found_cells.2 == 0 => {
+            warnings.push(mesh_warning(found_cells.0, found_cells.1));
+        }
+        None => {}
+    }
     found.insert(0, points);
     let tracks = found.into_iter().map(|found| found.track(content, binary));
     let mut tracks = tracks.collect::<Result<Vec<_>, _>>()?;
@@ -88,12 +105,49 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
             }
         }
     }
+    if let Some((rows, _)) = particles {
+        let some = |track| cells::kept(track, rows.clone(), count);
+        tracks = tracks.into_iter().map(some).collect();
+    }
     let format = Format::VtkLegacy { version, binary };
     let about = About { placed: Some(0), attributes, warnings, time, format, asked: asked.clone() };
     Plan::new(tracks, about, content.unpack_limit())
 }
 
+/// Which points are particles, given the lists of vertices, or of all cells with their types; see [`Vertices`].
+fn particles(
+    lists: Lists<'_>,
+    types: Option<Found>,
+    content: &Content<'_>,
+    binary: bool,
+    points: u64,
+) -> Result<Option<Particles>, ReadError> {
+    let types = match types {
+        Some(types) => {
+            let count = types.rows;
+            cells::integers(&types.track(content, binary)?, count)
+        }
+        None => Some(Vec::new()),
+    };
+    let split = types.and_then(|types| {
+        lists.split(|cell| types.get(cell).is_none_or(|ty| is_point(f64::from(*ty))))
+    });
+    let mut all = Vertices::default();
+    let inside = |list: &[u32]| list.iter().all(|point| u64::from(*point) < points);
+    match split {
+        Some((vertices, others)) if inside(&vertices) && inside(&others) => {
+            all.some(points, vertices, others);
+        }
+        _ => return Ok(None),
+    }
+    Ok(all.finish())
+}
+
+/// The rows that are particles, and a warning about the others.
+type Particles = (Arc<[Range<u64>]>, String);
+
 /// An array that may be used.
+#[derive(Clone)]
 struct Found {
     name: String,
     /// Name for messages.
@@ -144,6 +198,7 @@ struct OnCells {
 }
 
 /// Where the points of cells are listed.
+#[derive(Clone)]
 struct List {
     cells: u64,
     /// Where the list of the cells' points is in the file and, from version 5.0 on, the list of offsets into it.
@@ -210,6 +265,8 @@ struct Reader<'a> {
     /// lists.
     list: Option<List>,
     others: u64,
+    /// The types of all cells.
+    types: Option<Found>,
     asked: Asked,
 }
 
@@ -297,6 +354,7 @@ impl<'a> Reader<'a> {
             on_cells: OnCells::default(),
             list: None,
             others: 0,
+            types: None,
             asked: asked.clone(),
         };
         while let Some(line) = reader.keyword_line()? {
@@ -391,6 +449,7 @@ impl<'a> Reader<'a> {
                 if 2 * types.iter().filter(|ty| !is_point(**ty)).count() > types.len() {
                     (self.cells, self.cell) = (n, "cells");
                 }
+                self.types = Some(Found::list(&keyword, AttributeType::I32, n, self.text.at()));
                 self.values(AttributeType::I32, n, &keyword, false)?;
             }
             "POINT_DATA" | "CELL_DATA" => {
