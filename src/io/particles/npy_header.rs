@@ -41,7 +41,48 @@ pub(super) struct One {
 /// instead of one row.
 pub(super) const WIDE: u64 = 8;
 
+/// Min number of frames, and min ratio of frames to particles, from which on the dimensions of an array are taken
+/// to be in another order.
+const FRAMES: u64 = 500;
+const RATIO: u64 = 10;
+
 impl Header {
+    /// Refuses an array that has far more frames than particles.
+    pub(super) fn check_order(&self, name: &str) -> Result<(), ReadError> {
+        let (frames, rows, advice) = match *self.shape.as_slice() {
+            [frames, rows, 2 | 3 | 6] => (
+                frames,
+                rows,
+                "the order is (frames, particles, 3): if it is another one, save np.swapaxes(a, 0, 1), otherwise save a \
+                 file for each frame",
+            ),
+            [frames, 2 | 3, rows] => (
+                frames,
+                rows,
+                "the order is (frames, 3, particles): if it is another one, save np.moveaxis(a, -1, 0), otherwise save a \
+                 file for each frame",
+            ),
+            _ => return Ok(()),
+        };
+        if rows == 0 || frames < FRAMES || frames / rows < RATIO {
+            return Ok(());
+        }
+        let shape: Vec<_> = self.shape.iter().map(u64::to_string).collect();
+        Err(ReadError::Unsupported {
+            what: format!(
+                "array `{name}` of shape ({}), {frames} frames of {rows} particles,",
+                shape.join(", ")
+            ),
+            advice,
+        })
+    }
+
+    /// Length of all values in bytes.
+    pub(super) fn bytes(&self) -> u64 {
+        let frames = self.frame.map_or(1, |one| one.count).saturating_mul(self.size);
+        self.shape.iter().fold(frames, |bytes, extent| bytes.saturating_mul(*extent))
+    }
+
     /// Number of frames in an array that holds positions or, with `component`, one coordinate of them; `None` if the
     /// array has no dimension for frames, so is one frame.
     pub(super) fn frames(&self, component: bool) -> Option<u64> {
@@ -155,43 +196,13 @@ fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
         let member = Member { name: String::new(), ty, components: 1, offset: 0, big_endian };
         return Some((vec![member], size));
     }
-    words.sign('[')?;
-    let (mut members, mut offset) = (Vec::new(), 0_u64);
-    while words.sign('(').is_some() {
-        // A name may be preceded by a title.
-        let name = match words.sign('(') {
-            Some(()) => {
-                words.text()?;
-                words.sign(',')?;
-                let name = words.text()?;
-                words.sign(')')?;
-                name
-            }
-            None => words.text()?,
-        };
-        words.sign(',')?;
-        let (ty, size, big_endian) = scalar(words.text()?);
-        let mut components = 1_u64;
-        if words.sign(',').is_some() {
-            if words.sign('(').is_some() {
-                while let Some(extent) = words.number() {
-                    components = components.checked_mul(extent)?;
-                    words.sign(',');
-                }
-                words.sign(')')?;
-            } else if let Some(extent) = words.number() {
-                components = extent;
-            }
-        }
-        words.sign(')')?;
-        words.sign(',');
-        let count = usize::try_from(components).ok()?;
-        members.push(Member { name: name.into(), ty, components: count, offset, big_endian });
-        offset = offset.checked_add(size.checked_mul(components)?)?;
-    }
-    words.sign(']')?;
-    Some((members, offset))
+    let mut members = Vec::new();
+    let size = words.fields("", NESTED, &mut members)?;
+    Some((members, size))
 }
+
+/// Max depth of fields inside fields.
+const NESTED: usize = 8;
 
 /// Splits a Python list into words.
 struct Words<'a> {
@@ -210,6 +221,68 @@ impl<'a> Words<'a> {
         let (text, behind) = rest.get(1..)?.split_once(quote)?;
         self.rest = behind;
         Some(text)
+    }
+
+    /// Reads a list of fields, whose names begin with `prefix`, and returns their size in bytes. Fields inside fields
+    /// are named `outer.inner`.
+    fn fields(&mut self, prefix: &str, depth: usize, members: &mut Vec<Member>) -> Option<u64> {
+        let deeper = depth.checked_sub(1)?;
+        self.sign('[')?;
+        let mut offset = 0_u64;
+        while self.sign('(').is_some() {
+            // A name may be preceded by a title.
+            let name = match self.sign('(') {
+                Some(()) => {
+                    self.text()?;
+                    self.sign(',')?;
+                    let name = self.text()?;
+                    self.sign(')')?;
+                    name
+                }
+                None => self.text()?,
+            };
+            self.sign(',')?;
+            let name = format!("{prefix}{name}");
+            let mut inner = Vec::new();
+            let (ty, size, big_endian) = match self.rest.trim_start().starts_with('[') {
+                true => {
+                    let size = self.fields(&format!("{name}."), deeper, &mut inner)?;
+                    (AttributeType::Other, size, false)
+                }
+                false => scalar(self.text()?),
+            };
+            let components = self.extents()?;
+            self.sign(')')?;
+            self.sign(',');
+            if inner.is_empty() || components != 1 {
+                let components = usize::try_from(components).ok()?;
+                members.push(Member { name, ty, components, offset, big_endian });
+            } else {
+                for member in inner {
+                    members.push(Member { offset: offset.checked_add(member.offset)?, ..member });
+                }
+            }
+            offset = offset.checked_add(size.checked_mul(components)?)?;
+        }
+        self.sign(']')?;
+        Some(offset)
+    }
+
+    /// Number of values in a field: the product of the extents after its type, or 1 if there are none.
+    fn extents(&mut self) -> Option<u64> {
+        if self.sign(',').is_none() {
+            return Some(1);
+        }
+        if self.sign('(').is_none() {
+            return Some(self.number().unwrap_or(1));
+        }
+        let mut components = 1_u64;
+        while let Some(extent) = self.number() {
+            components = components.checked_mul(extent)?;
+            self.sign(',');
+        }
+        self.sign(')')?;
+        Some(components)
     }
 
     fn number(&mut self) -> Option<u64> {

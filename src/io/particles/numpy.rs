@@ -22,7 +22,7 @@ use super::error::{Place, ReadError};
 use super::names;
 use super::npy_header::{Header, One, WIDE, every, header};
 use super::rows::{Field, Layout, Rows};
-use super::source::{self, Check, Input, Packing, Piece, Source};
+use super::source::{self, Check, Content, Input, Packing, Piece, Source};
 use super::{Format, Particles};
 
 /// An array seen as rows.
@@ -238,8 +238,41 @@ impl Header {
 
 const NPY: &str = "array";
 
+/// Refuses a file with anything after its array.
+pub(super) fn check_end(content: &Content<'_>) -> Result<(), ReadError> {
+    let (header, length) = source::header(&mut content.open(0, content.length())?, |head| {
+        let mut cursor = Cursor::new(head);
+        let header = header(&mut cursor)?;
+        let length = cursor.at() as u64;
+        Ok(((header, length), length))
+    })?;
+    let end = length.saturating_add(header.bytes());
+    let more = content.length().saturating_sub(end);
+    if more == 0 {
+        return Ok(());
+    }
+    let mut start = Vec::new();
+    content.open(end, content.length())?.fill(6, &mut start)?;
+    if start == b"\x93NUMPY" {
+        return Err(ReadError::Unsupported {
+            what: format!(
+                "a file of several arrays ({more} bytes follow the first, of shape {})",
+                header.words()
+            ),
+            advice: "call np.save with a new file name for each: np.save(f'frame_{i:04d}.npy', a)",
+        });
+    }
+    Err(ReadError::malformed(
+        format!("the end of the file after an array of shape {}", header.words()),
+        format!("{more} more bytes"),
+        Place::Byte(end),
+    ))
+}
+
 pub(super) fn read_npy(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
-    if let Some(layout) = layout(bytes, asked)?.0 {
+    let (layout, _) = layout(bytes, asked)?;
+    check_end(&Content::of_bytes(bytes)?)?;
+    if let Some(layout) = layout {
         return layout.read(bytes);
     }
     let mut cursor = Cursor::new(bytes);
@@ -274,6 +307,7 @@ pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64
 
 fn of_positions(cursor: &mut Cursor<'_>, asked: &Asked) -> Result<Header, ReadError> {
     let header = header(cursor)?;
+    header.check_order(NPY)?;
     let frame = header.frames(false).and_then(|count| one(asked, count));
     let header = header.of_frame(frame, true);
     if header.descr.ends_with('O') {
@@ -307,6 +341,7 @@ pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, Re
             let header = header(&mut cursor)?;
             Ok((header, cursor.at() as u64))
         })?;
+        header.check_order(NPY)?;
         return Ok(frames(header.frames(false)));
     }
     let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
@@ -354,6 +389,7 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
         table.columns.extend(columns);
     }
     table.warnings.append(&mut chosen.warnings);
+    table.time = chosen.time;
     let mut particles = table.assemble(Format::Npz)?;
     if let (Some(name), Some((_, names))) = (chosen.positions, particles.meanings.first_mut()) {
         *names = vec![name];
@@ -369,6 +405,7 @@ pub(super) struct Arrays {
     pub(super) placed: Option<usize>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
+    pub(super) time: Option<f64>,
 }
 
 /// Reads the headers of the arrays in an NPZ file. `None` if one array's compression or order of values prevents
@@ -415,7 +452,7 @@ pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>,
     }
     table.warnings.append(&mut chosen.warnings);
     let Table { attributes, warnings, .. } = table;
-    Ok(Some(Arrays { rows: found, placed, attributes, warnings }))
+    Ok(Some(Arrays { rows: found, placed, attributes, warnings, time: chosen.time }))
 }
 
 fn bad_zip(error: zip::result::ZipError) -> ReadError {
@@ -432,6 +469,8 @@ struct Chosen {
     /// Number of frames, and the array with their times.
     frames: Option<u64>,
     times: Option<String>,
+    /// Time of the only frame, from an array of one value.
+    time: Option<f64>,
     warnings: Vec<String>,
 }
 
@@ -451,13 +490,23 @@ fn choose<R: Read + std::io::Seek>(
 ) -> Result<(Table, Chosen), ReadError> {
     let (mut table, mut chosen) = (Table::new(asked), Chosen::default());
     let (mut all, mut able, mut headers) = (Vec::new(), Vec::new(), Vec::new());
+    let mut others = Vec::new();
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
-        let name = file.name().ok().and_then(|name| name.strip_suffix(".npy").map(str::to_string));
-        let Some(name) = name else { continue };
+        let Ok(name) = file.name().map(|name| name.into_owned()) else { continue };
+        let Some(name) = name.strip_suffix(".npy").map(str::to_string) else {
+            others.push(name);
+            continue;
+        };
         let mut head = Vec::new();
         let _ = file.by_ref().take(4096).read_to_end(&mut head);
-        let Ok(header) = header(&mut Cursor::new(&head)) else { continue };
+        let mut cursor = Cursor::new(&head);
+        let Ok(header) = header(&mut cursor) else { continue };
+        if names::is_time(&name) && header.shape.iter().all(|extent| *extent == 1) {
+            let values = header.columns(&mut cursor, &name, false, &mut Table::new(asked));
+            let value = values.ok().and_then(|columns| columns.first()?.data.f64(0));
+            chosen.time = chosen.time.or(value.filter(|time| time.is_finite()));
+        }
         if header.structured && !asked.wants(&name) {
             let fields = header.members.iter().map(|member| member.name.clone());
             all.extend(fields);
@@ -469,6 +518,9 @@ fn choose<R: Read + std::io::Seek>(
             all.push(name.clone());
         }
         headers.push((name, header));
+    }
+    if headers.is_empty() && !others.is_empty() {
+        return Err(other_zip(&others));
     }
     // `savez` numbers unnamed arrays in their order.
     able.sort();
@@ -497,6 +549,11 @@ fn choose<R: Read + std::io::Seek>(
         counts.then(|| header.frames(component)).flatten()
     });
     chosen.frames = frames.max();
+    for (name, header) in headers.iter().filter(|(_, header)| !header.structured) {
+        if names::is_position(name) || chosen.positions.as_ref() == Some(name) {
+            header.check_order(name)?;
+        }
+    }
     for (name, header) in headers {
         if chosen.frames.is_some_and(|frames| header.shape == [frames]) && names::is_time(&name) {
             chosen.times = Some(name.clone());
@@ -504,6 +561,25 @@ fn choose<R: Read + std::io::Seek>(
         chosen.frame(header, &name, asked).list(&mut table, &name);
     }
     Ok((table, chosen))
+}
+
+/// The error for a zip without arrays that holds these files.
+fn other_zip(files: &[String]) -> ReadError {
+    if files.iter().any(|file| file.starts_with("xl/")) {
+        return ReadError::Unsupported {
+            what: "a workbook of Excel".into(),
+            advice: "save the sheet as CSV",
+        };
+    }
+    let named: Vec<_> = files.iter().take(3).map(String::as_str).collect();
+    let more = match files.len() {
+        0..4 => String::new(),
+        count => format!(" and {} more", count - 3),
+    };
+    ReadError::Unsupported {
+        what: format!("a zip that holds {}{more}", named.join(", ")),
+        advice: "unpack it and give the files of particles in it",
+    }
 }
 
 /// The name of an array that may be used.

@@ -331,11 +331,16 @@ pub(super) fn plan<'a>(
             Ok((layout, length))
         })?),
         format::Reader::Ply => source::header(&mut source, |head| ply::layout(head, asked))?,
-        format::Reader::Npy => source::header(&mut source, |head| numpy::layout(head, asked))?,
+        format::Reader::Npy => {
+            let layout = source::header(&mut source, |head| numpy::layout(head, asked))?;
+            numpy::check_end(&Content::new(input, gzip)?)?;
+            layout
+        }
         format::Reader::Npz if !gzip => {
             let Some(arrays) = numpy::arrays(input, asked)? else { return Ok(None) };
-            let numpy::Arrays { rows, placed, attributes, warnings } = arrays;
-            let about = About { placed, attributes, warnings, ..About::new(Format::Npz, asked) };
+            let numpy::Arrays { rows, placed, attributes, warnings, time } = arrays;
+            let about =
+                About { placed, attributes, warnings, time, ..About::new(Format::Npz, asked) };
             return of_rows(input, rows, about).map(Some);
         }
         _ => None,
