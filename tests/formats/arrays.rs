@@ -1,7 +1,10 @@
 //! NumPy and JSON arrays in the shapes that users save.
 
+use super::folder::Folder;
 use super::samples::{self, floats, npz};
-use whitewater::io::particles::{Extension, Format, Particles, Parts, read_bytes};
+use whitewater::io::particles::{
+    Extension, Format, Particles, Parts, ReadError, read_bytes, steps,
+};
 
 fn npy(descr: &str, shape: &str, fortran: bool, raw: &[u8]) -> Vec<u8> {
     samples::npy(descr, shape, fortran, 1, raw)
@@ -109,6 +112,101 @@ fn arrays_of_frames_are_refused_in_their_words() {
     error(&npy("<c8", "(30, 3)", false, &raw), Extension::Npy, &["<c8", "astype"]);
     let frames = npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", "(6, 5)", false, &raw);
     error(&frames, Extension::Npy, &["6 frames of 5"]);
+}
+
+/// As repeated calls of np.save with an open file write it.
+#[test]
+fn arrays_after_the_first_are_told() {
+    let raw = floats(samples::cloud().positions.as_flattened(), 4, false);
+    let turned = npy("<f4", "(11, 3)", true, &raw);
+    let one = npy("<f4", "(11, 3)", false, &raw);
+    let folder = Folder::new("arrays");
+    for (name, first) in [("rows", &one), ("columns of Fortran", &turned)] {
+        read(name, first, Extension::Npy);
+        let two = [first.as_slice(), &one].concat();
+        let words =
+            ["several arrays", "(11, 3)", &format!("{} bytes follow", one.len()), "np.save"];
+        for bytes in [two.clone(), samples::gzip(&two)] {
+            error(&bytes, Extension::Npy, &words);
+            let parts = Parts::of_bytes(&bytes, Extension::Npy, 4).map(|_| ()).unwrap_err();
+            assert!(parts.to_string().contains("several arrays"), "{name}: {parts}");
+        }
+        assert!(steps(&folder.put("two.npy", two)).is_err(), "{name}");
+        let more = [first.as_slice(), b"more"].concat();
+        let told = read_bytes(&more, Extension::Npy).unwrap_err();
+        assert!(told.to_string().contains("found 4 more bytes"), "{name}: {told}");
+        assert!(matches!(told, ReadError::Malformed { .. }), "{name}: {told}");
+    }
+    // The frames of one array are no arrays of their own.
+    let frames = npy("<f4", "(2, 11, 3)", false, &[raw.as_slice(), &raw].concat());
+    assert_eq!(steps(&folder.put("frames.npy", frames)).unwrap().len(), 2);
+}
+
+/// Arrays whose first dimension counts particles instead of frames.
+#[test]
+fn frames_in_another_order_are_told() {
+    let folder = Folder::new("order");
+    for (shape, words) in [
+        ("(600, 4, 3)", ["600 frames of 4 particles", "np.swapaxes(a, 0, 1)"]),
+        ("(600, 3, 9)", ["600 frames of 9 particles", "np.moveaxis(a, -1, 0)"]),
+    ] {
+        let array = npy("<f4", shape, false, &vec![0; 4 * 600 * 27]);
+        let array =
+            array[..array.len() - if shape.ends_with("9)") { 0 } else { 4 * 600 * 15 }].to_vec();
+        let zip = npz(&[("positions", array.clone())], true);
+        for (name, bytes) in [("a.npy", array), ("a.npz", zip)] {
+            error(&bytes, Extension::Unknown, &[shape, words[0], words[1]]);
+            let told = steps(&folder.put(name, bytes)).unwrap_err().to_string();
+            assert!(told.contains(words[1]), "{told}");
+        }
+    }
+    let frames = npy("<f4", "(600, 61, 3)", false, &vec![0; 4 * 600 * 183]);
+    assert_eq!(steps(&folder.put("frames.npy", frames)).unwrap().len(), 600);
+}
+
+#[test]
+fn the_time_of_a_zip_of_arrays() {
+    let raw = floats(samples::cloud().positions.as_flattened(), 4, false);
+    let positions = npy("<f4", "(11, 3)", false, &raw);
+    for shape in ["()", "(1,)", "(1, 1)"] {
+        for (name, time, expected) in
+            [("time", 0.03, Some(0.03)), ("dt", 0.03, None), ("time", f64::NAN, None)]
+        {
+            let time = npy("<f8", shape, false, &time.to_le_bytes());
+            for deflate in [false, true] {
+                let zip = npz(&[("position", positions.clone()), (name, time.clone())], deflate);
+                let p = read("time", &zip, Extension::Npz);
+                assert_eq!(p.time, expected, "{name} {shape}");
+                assert!(p.warnings.is_empty(), "{:?}", p.warnings);
+                let mut parts = Parts::of_bytes(&zip, Extension::Npz, 4).unwrap();
+                assert_eq!(parts.about().time, expected, "{name} {shape}");
+                assert_eq!(parts.next().unwrap().unwrap().time, expected, "{name} {shape}");
+            }
+        }
+    }
+}
+
+/// Structured arrays with fields of fields.
+#[test]
+fn fields_of_fields() {
+    let cloud = samples::cloud();
+    let (v, ids) = (cloud.velocities.clone().unwrap(), cloud.ids.clone().unwrap());
+    let row = |i: usize| {
+        let mut row = samples::ints(&ids[i..=i], 4, false);
+        row.extend(floats(&cloud.positions[i], 8, false));
+        row.extend([7; 10]);
+        row.extend(floats(&v[i], 4, false));
+        row
+    };
+    let raw: Vec<u8> = (0..11).flat_map(row).collect();
+    let descr = "[('id', '<i4'), ('pos', [('x', '<f8'), ('y', '<f8'), ('z', '<f8')]), \
+                 ('tags', [('a', '<i2'), ('b', '|S3')], (2,)), ('state', [('vel', '<f4', (3,))])]";
+    let p = read("nested", &npy(descr, "(11,)", false, &raw), Extension::Npy);
+    assert_eq!((&p.positions, &p.ids), (&cloud.positions, &cloud.ids));
+    let listed: Vec<_> = p.attributes.iter().map(|a| a.name.as_str()).collect();
+    assert_eq!(listed, ["id", "pos.x", "pos.y", "pos.z", "tags", "state.vel"]);
+    let deep = "[('x', ".repeat(100_000);
+    let _ = read_bytes(&npy(&deep, "(11,)", false, &raw), Extension::Npy).unwrap_err();
 }
 
 #[test]
@@ -406,7 +504,21 @@ fn shapes_of_json_that_are_refused() {
         ("{\"water\":{\"a\":[1]},\"walls\":{\"a\":[1]}}", ["expected positions", "walls"]),
         ("[{\"x\":1,\"y\":2,\"z\":3},{\"x\":1,\"y\":2}]", ["attribute `z`", "expected 2"]),
         ("{\"file-series-version\":\"1.0\",\"files\":[]}", ["files of a sequence", ".series"]),
+        (
+            "{\"water\":{\"positions\":[[1,2,3]]},\"n\":1,\"oil\":{\"pos\":[[1,2,3]],\"rho\":[1]}}",
+            ["positions inside several objects: `oil`, `water`", "file of its own"],
+        ),
     ] {
         error(text.as_bytes(), Extension::Json, &parts);
     }
+}
+
+/// Numbers in quotes, as csv.DictReader of Python leaves them.
+#[test]
+fn numbers_of_json_in_quotes() {
+    let text = "[{\"x\":\"1\",\"y\":\"2.5\",\"z\":\"-3e0\",\"name\":\"7\",\"id\":\"4\"},\
+                {\"x\":\"0\",\"y\":0,\"z\":\"0\",\"name\":\"b\",\"id\":\"5\"}]";
+    let p = read("quotes", text.as_bytes(), Extension::Json);
+    assert_eq!(p.positions, [[1.0, 2.5, -3.0], [0.0; 3]]);
+    assert_eq!(p.ids, Some(vec![4, 5]));
 }

@@ -299,8 +299,15 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
         }
         for (name, value) in first {
             let components = components(value).map_or(1, |vector| vector.len());
-            let ty = if value.is_string() { AttributeType::Text } else { AttributeType::Number };
-            if table.list(name, components, ty) && !value.is_string() {
+            // Numbers may be in quotes.
+            let number = |value: &Value| {
+                let text = value.as_str().map(|text| text.trim().parse::<f64>());
+                text.is_none_or(|number| number.is_ok())
+            };
+            let text =
+                value.is_string() && !rows.iter().filter_map(|row| row.get(name)).all(number);
+            let ty = if text { AttributeType::Text } else { AttributeType::Number };
+            if table.list(name, components, ty) && !text {
                 columns.push((name.clone(), Vec::new()));
             }
         }
@@ -362,6 +369,20 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
                 Value::Object(map) => object(map, table),
                 _ => Ok(()),
             };
+        }
+        let fluid = |(name, value): &(String, Value)| {
+            let fields: Vec<_> = value.as_object()?.keys().collect();
+            names::may_have_positions(&fields).then(|| format!("`{name}`"))
+        };
+        let fluids: Vec<String> = inner.iter().filter_map(fluid).collect();
+        if fluids.len() > 1 {
+            return Err(ReadError::Unsupported {
+                what: format!(
+                    "a file with positions inside several objects: {}",
+                    fluids.join(", ")
+                ),
+                advice: "write each object to a file of its own",
+            });
         }
         for (name, _) in inner {
             table.list(&name, 1, AttributeType::Other);
