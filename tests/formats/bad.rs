@@ -494,3 +494,62 @@ fn files_of_other_formats_are_named() {
         assert_eq!(parts.to_string(), error.to_string());
     }
 }
+
+/// Zips and texts that are no particles, but hold them.
+#[test]
+fn containers_of_particles_are_named() {
+    let zip = |names: &[&str]| {
+        let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+        for name in names {
+            archive.start_file(*name, zip::write::SimpleFileOptions::default()).unwrap();
+        }
+        archive.finish().unwrap().into_inner()
+    };
+    let mut tar = vec![0; 512];
+    tar[..5].copy_from_slice(b"a.csv");
+    tar[257..262].copy_from_slice(b"ustar");
+    let gro = "Water in a box\n  2\n    1SOL     OW    1   0.126   1.624   1.679\n    1SOL    HW1    2   \
+               0.190   1.661   1.747\n   1.8   1.8   1.8\n";
+    let rows = "v 0.1 0.2 0.3\n".repeat(1000);
+    assert_eq!(read_bytes(rows.as_bytes(), Extension::Unknown).unwrap().positions.len(), 1000);
+    let obj = format!("# Blender 4.0\nmtllib a.mtl\no water\n{rows}");
+    for (bytes, parts) in [
+        (zip(&["docProps/app.xml", "xl/workbook.xml"]), ["Excel", "CSV"]),
+        (zip(&["a.csv"]), ["a zip that holds a.csv is", "unpack"]),
+        (zip(&["a.csv", "b.csv", "c.csv", "d.csv"]), ["a.csv, b.csv, c.csv and 1 more", "unpack"]),
+        (tar.clone(), ["an archive", "tar xf"]),
+        (samples::gzip(&tar), ["an archive", "tar xf"]),
+        (obj.into(), ["Wavefront", "grep '^v '"]),
+        (gro.into(), ["GROMACS", "MDAnalysis"]),
+    ] {
+        let error = refused(&bytes, Extension::Unknown, &parts);
+        assert!(matches!(error, ReadError::Unsupported { .. }), "{error:?}");
+        let parts = Parts::of_bytes(&bytes, Extension::Unknown, 10).map(|_| ()).unwrap_err();
+        assert_eq!(parts.to_string(), error.to_string());
+    }
+}
+
+/// Rows of PLY after those that the header counts.
+#[test]
+fn more_rows_of_ply_than_counted() {
+    let ply = |more: &str, rows: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n{more}\
+             end_header\n{rows}"
+        )
+    };
+    let face = "element face 1\nproperty list uchar int vertex_indices\n";
+    for (more, rows) in
+        [("", "0 0 0\n0 0 1"), ("", "0 0 0\n0 0 1\n\n \r\n"), (face, "0 0 0\n0 0 1\n2 0 1\n")]
+    {
+        let p = read_bytes(ply(more, rows).as_bytes(), Extension::Ply).unwrap();
+        assert_eq!(p.positions.len(), 2);
+    }
+    for more in ["", "element face 0\nproperty list uchar int vertex_indices\n"] {
+        let text = ply(more, "0 0 0\n0 0 1\n0.5 0 2\n0 0 3\n");
+        let parts = ["nothing after the 2 rows of element `vertex`", "found \"0.5\""];
+        let error = refused(text.as_bytes(), Extension::Ply, &parts).to_string();
+        let parts = Parts::of_bytes(text.as_bytes(), Extension::Ply, 1).map(|_| ()).unwrap_err();
+        assert_eq!(parts.to_string(), error);
+    }
+}

@@ -1,5 +1,6 @@
 //! Recognises valid files of unsupported formats by their first bytes, and says how to convert them.
 
+use super::bytes;
 use super::error::ReadError;
 
 /// Number of bytes that suffice for the detection.
@@ -99,6 +100,9 @@ pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
     if let Some((_, what, advice)) = MAGIC.iter().find(|(magic, ..)| head.starts_with(magic)) {
         return unsupported(what, advice);
     }
+    if head.get(257..).is_some_and(|rest| rest.starts_with(b"ustar")) {
+        return unsupported("an archive (tar)", "unpack it: tar xf FILE");
+    }
     // The name of the first entry in a zip.
     if let (true, Some(rest)) = (head.starts_with(b"PK\x03\x04"), head.get(30..)) {
         let length =
@@ -124,4 +128,37 @@ pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
         );
     }
     None
+}
+
+/// The error for a text of a known but unsupported format without first words of its own; `None` if it is unknown.
+pub(super) fn told_of_text(text: &[u8]) -> Option<ReadError> {
+    let head = text.get(..text.len().min(8 * START)).unwrap_or(text);
+    let mut lines = head.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_end);
+    let number = |word: &[u8]| bytes::parse_number(word.trim_ascii()).is_some();
+    let vertex = |line: &[u8]| {
+        line.strip_prefix(b"v ").is_some_and(|rest| {
+            let words = rest.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+            words.take(3).filter(|word| number(word)).count() == 3
+        })
+    };
+    // Rows `v x y z` alone are read as a table.
+    let words = [&b"mtllib "[..], b"usemtl ", b"vn ", b"vt ", b"f ", b"o ", b"g "];
+    let named = |line: &[u8]| words.iter().any(|word| line.starts_with(word));
+    if lines.clone().any(vertex) && lines.clone().any(named) {
+        return Some(ReadError::Unsupported {
+            what: "a mesh of Wavefront (.obj)".into(),
+            advice: "keep its points alone: grep '^v ' FILE | cut -d' ' -f2-4 > points.xyz, or export PLY",
+        });
+    }
+    // A title, a count, and columns of fixed width, the positions from the 21st character on.
+    let count = lines.nth(1)?.trim_ascii();
+    let first = lines.next()?;
+    let places = [0..5, 15..20, 20..28, 28..36, 36..44];
+    let atom = places.into_iter().all(|place| first.get(place).is_some_and(number));
+    (atom && !count.is_empty() && count.iter().all(u8::is_ascii_digit)).then(|| {
+        ReadError::Unsupported {
+            what: "a configuration of GROMACS (.gro)".into(),
+            advice: "save its positions: np.save('out.npy', MDAnalysis.Universe('FILE').atoms.positions)",
+        }
+    })
 }

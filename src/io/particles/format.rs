@@ -303,7 +303,12 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         match hint {
             Extension::Csv => return Ok(Reader::Csv),
             Extension::Xyz | Extension::Text => return Ok(Reader::XyzText),
-            Extension::Unknown if is_table(body) => return Ok(Reader::XyzText),
+            Extension::Unknown => {
+                foreign::told_of_text(body).map_or(Ok(()), Err)?;
+                if is_table(body) {
+                    return Ok(Reader::XyzText);
+                }
+            }
             _ => {}
         }
     } else if is_readable(bytes)
