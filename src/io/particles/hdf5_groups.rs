@@ -17,12 +17,15 @@ pub(super) enum Order {
 /// Words before the number of a frame: ends of words, and whole words.
 const FRAMES: [&[&str]; 2] = [
     &["step", "frame", "time", "iter", "iteration", "cycle", "snapshot", "output", "dump"],
-    &["t", "ts", "it", "f", "snap", "out", "plt", "plot", "state", "tick"],
+    &[
+        "t", "ts", "it", "f", "snap", "out", "plt", "plot", "state", "tick", "data", "result",
+        "save",
+    ],
 ];
-/// Words before the number of a piece.
+/// Words before the number of a piece. `part` is none: DualSPHysics calls its frames so.
 const PIECES: [&[&str]; 2] = [
     &["rank", "piece", "domain", "chunk", "processor", "process", "partition"],
-    &["proc", "part", "cpu", "mpi", "task", "block"],
+    &["proc", "cpu", "mpi", "task", "block"],
 ];
 /// Words before the number of one of several liquids.
 const FLUIDS: [&[&str]; 2] = [&["fluid", "water", "liquid"], &[]];
@@ -169,6 +172,7 @@ mod tests {
             ["/step-5", "/step-10"],
             ["/TimeStep2", "/TimeStep10"],
             ["/run/dataT2", "/run/dataT3"],
+            ["/data0002", "/data0010"],
             ["/output_1/step_9", "/output_2/step_0"],
         ] {
             assert_eq!(of(&paths), frames(&[0, 1]), "{paths:?}");
@@ -183,9 +187,12 @@ mod tests {
         ] {
             assert_eq!(of(&paths), Order::Together, "{paths:?}");
         }
-        for paths in
-            [["/body0", "/body1"], ["/PartType1", "/PartType2"], ["/rank_0/s1", "/rank_1/s2"]]
-        {
+        for paths in [
+            ["/body0", "/body1"],
+            ["/Part_0001", "/Part_0002"],
+            ["/PartType1", "/PartType2"],
+            ["/rank_0/s1", "/rank_1/s2"],
+        ] {
             assert_eq!(of(&paths), Order::Unsure, "{paths:?}");
         }
         assert_eq!(order(&[("/body0", Some(1.0)), ("/body1", Some(0.5))]), frames(&[1, 0]));
