@@ -7,7 +7,7 @@
 //!
 //! A row is a particle. The array has shape (n, 3) or (3, n), in C or Fortran order. Two columns are two-dimensional
 //! positions; the last three of six columns are velocities. In an array of shape (t, n, 3) the first dimension counts
-//! frames, which are read one by one: see `steps`.
+//! frames, which are read one by one: see `steps`. In an NPZ file, an array `time` of one value is the frame's time.
 //!
 //! The reader is our own, because the crate npyz (0.9) brings a whole Python parser with big integers for
 //! three keys, returns values only in the type in which they are stored, and does not check the shape against
