@@ -336,6 +336,10 @@ fn doubles_of_fortran() {
     let p = read("1.404768-100 1.5+002 -2.5-001\n", Extension::Text);
     assert_eq!(p.positions, [[0.0, 150.0, -0.25]]);
     error("x,y,z\n1,2,2024-100\n", Extension::Csv, &["`z`", "2024-100"]);
+    // A number that does not fit its field.
+    let text = "x y z\n1.25 2.5 3.75\n1.25 ******* 3.75\n";
+    error(text, Extension::Text, &["column 2 (`y`)", "\"*******\"", "line 3"]);
+    error("x y z\n1 2 3\n1 2\n", Extension::Text, &["3 values", "found 2 in \"1 2\"", "line 3"]);
 }
 
 #[test]

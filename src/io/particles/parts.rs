@@ -33,8 +33,8 @@ const START: u64 = 1 << 16;
 /// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)), except such VTK XML, which is read
 /// in parts, but whose header is as long as the file. In VTK files, an attribute of cells is held as a whole if the
 /// cells are in another order than the points, and the list of the cells' points if the points are also those of a
-/// mesh. Because each attribute of a VTK file has a place of its own in the
-/// file, gzip content is decompressed once per attribute.
+/// mesh. Because each attribute of a VTK file has a place of its own in the file, gzip content is decompressed once per
+/// attribute.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,

@@ -2,10 +2,10 @@
 //!
 //! The file has four lines (`# vtk DataFile Version x.y`, a title, `ASCII` or `BINARY`, `DATASET type`), then
 //! sections: a line of words, followed by values as text or as big-endian bytes. Cells are, up to version 4.2, one list
-//! of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`; they are only read for `CELL_DATA` and beside a mesh,
-//! see `cells`. `POINT_DATA n` begins the attributes: `SCALARS`, `VECTORS` and the like, or a `FIELD` of arrays.
-//! `METADATA` may follow any array and ends with an empty line. The length of an unknown section cannot be determined, so reading ends there with
-//! a warning.
+//! of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`; they are only read for `CELL_DATA` and beside a mesh, see
+//! `cells`. `POINT_DATA n` begins the attributes: `SCALARS`, `VECTORS` and the like, or a `FIELD` of arrays. `METADATA`
+//! may follow any array and ends with an empty line. The length of an unknown section cannot be determined, so reading
+//! ends there with a warning.
 //!
 //! The reader is our own, because the crate vtkio (0.6) refuses the cells of version 5.1 as VTK 9 and meshio
 //! write them (`OFFSETS vtktypeint64`).

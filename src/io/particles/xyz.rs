@@ -485,9 +485,13 @@ fn row(
     taken: &[Option<usize>],
     columns: &mut [Column],
 ) -> Result<(), ReadError> {
-    let mut words = words(line, commas);
-    for column in taken {
-        let word = words.next().ok_or_else(|| bad_line(line, number))?;
+    let mut all = words(line, commas);
+    for (i, column) in taken.iter().enumerate() {
+        let word = all.next().ok_or_else(|| {
+            let found = format!("{i} in {}", show(line));
+            let place = Place::Line(number);
+            ReadError::table(format!("{} values in each line", taken.len()), found, place)
+        })?;
         let Some(column) = column.and_then(|i| columns.get_mut(i)) else { continue };
         if column.data.push_text(word) {
             continue;
@@ -495,7 +499,8 @@ fn row(
         let value = number_with_comma(word).filter(|_| !commas);
         let value = value.or_else(|| names::may_be_text(&column.name).then_some(f64::NAN));
         if !value.is_some_and(|x| column.data.push_number(x)) {
-            return Err(bad_line(line, number));
+            let expected = format!("a number in column {} (`{}`)", i + 1, column.name);
+            return Err(ReadError::table(expected, show(word), Place::Line(number)));
         }
     }
     Ok(())

@@ -24,6 +24,7 @@ fn a_block_of_water_has_all_its_layers() {
         "water.back.Z",
         "water.depth.Z",
         "water.iterations",
+        "water.noise",
         "water.normal.X",
         "water.normal.Y",
         "water.normal.Z",
