@@ -254,6 +254,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, position, n);
+
     // Thickness is limited to the room before the scene, because sprites are wider than the particles that
     // they stand for. So water ends where it meets the scene, and does not refract what it touches.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);

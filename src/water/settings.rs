@@ -1033,8 +1033,7 @@ impl Default for SurfaceNoiseSettings {
 
 impl SurfaceNoiseSettings {
     /// Ripples on water in the air (jets, sheets, drops) and none on water that lies on the scene. Weight and number
-    /// of cells are chosen by eye: they break up the plain reflections of a jet, and what is seen through it stays in
-    /// one piece.
+    /// of cells are chosen by eye: reflections in a jet break up, and the scene behind it can still be recognised.
     pub const AIRBORNE: Self = Self {
         weight: 0.33,
         falloff: 2.0,

@@ -257,7 +257,7 @@ fn files_that_cannot_be_looked_at_are_told() {
         assert!(matches!(error, SequenceError::Io { .. }), "{pattern}: {error}");
         assert!(error.to_string().contains("f_2.csv"), "{pattern}: {error}");
     }
-    // A link to what is gone.
+    // A link whose target does not exist.
     std::fs::remove_file(&link).unwrap();
     std::os::unix::fs::symlink("gone.csv", &link).unwrap();
     for pattern in ["f_*.csv", "f_%d.csv", "f_2.csv"] {

@@ -429,9 +429,9 @@ impl Bounds {
     }
 }
 
-/// Sorts triangles into two groups with the least cost by the surface area heuristic (MacDonald and Booth 1990):
-/// the sum over the groups of number times surface. Returns how many are in the first group; `None` if all centres
-/// are in one spot.
+/// Sorts triangles into two groups. The cost of a cut (surface area heuristic, MacDonald and Booth 1990) is the sum
+/// over both groups of their number of triangles times the surface of their bounds; the cheapest cut is taken. Returns
+/// how many triangles are in the first group; `None` if all centres are in one spot.
 fn cut(part: &mut [Triangle]) -> Option<usize> {
     let low = part.iter().fold(Vec3::INFINITY, |low, t| low.min(t.centre()));
     let high = part.iter().fold(Vec3::NEG_INFINITY, |high, t| high.max(t.centre()));
@@ -518,6 +518,41 @@ mod tests {
             ground: Some(Ground { y: 0.0, material: Material::default(), reach: None }),
             ..Scene::default()
         }
+    }
+
+    /// The tree finds the same nearest triangles as a search of all, also where many triangles coincide.
+    #[test]
+    fn the_tree_loses_no_triangle() {
+        let mut state = 7_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 16_777_216.0 - 0.5
+        };
+        let mut triangles: Vec<Triangle> = Vec::new();
+        for i in 0..600 {
+            let [corner, a, b] = std::array::from_fn(|_| Vec3::new(random(), random(), random()));
+            // A third of them share their centre; some are large.
+            let corner = if i % 3 == 0 { Vec3::splat(0.2) } else { corner };
+            let size = if i % 50 == 0 { 2.0 } else { 0.1 };
+            let edges =
+                if i % 3 == 0 { [Vec3::X * 0.1, Vec3::Y * 0.1] } else { [a * size, b * size] };
+            triangles.push(Triangle { corner, edges, normal: Vec3::Y, albedo: Vec3::ONE });
+        }
+        let mut tracer = Tracer::new(&Scene::default(), 1.0);
+        tracer.triangles = triangles;
+        tracer.nodes.truncate(1);
+        tracer.build(0, 0, 0, tracer.triangles.len());
+        let mut hits = 0;
+        for _ in 0..500 {
+            let [from, to] = std::array::from_fn(|_| Vec3::new(random(), random(), random()));
+            let along = (to - 2.0 * from).normalize();
+            let all = tracer.triangles.iter().filter_map(|t| t.hit(from, along));
+            let expected = all.reduce(f32::min);
+            assert_eq!(tracer.trace(from, along, false).map(|hit| hit.distance), expected);
+            assert_eq!(tracer.trace(from, along, true).is_some(), expected.is_some());
+            hits += u32::from(expected.is_some());
+        }
+        assert!((100..500).contains(&hits), "{hits}");
     }
 
     #[test]

@@ -292,18 +292,28 @@ pub(super) fn integers(track: &Track<'_>, count: u64) -> Option<Vec<u32>> {
 
 /// The values of a track (values in a file) in some rows only.
 pub(super) fn kept<'a>(track: Track<'a>, rows: Arc<[Range<u64>]>, all: u64) -> Track<'a> {
-    let Track { columns, lengths, what, open: inner } = track;
     let out = all.saturating_sub(count(&rows));
     let left = |(length, column): (&u64, &Column)| {
         length.saturating_sub(out.saturating_mul(column.components as u64))
     };
-    let lengths = lengths.map(|lengths| lengths.iter().zip(&columns).map(left).collect());
+    let lengths = track.lengths.as_ref();
+    let lengths = lengths.map(|all| all.iter().zip(&track.columns).map(left).collect());
+    over(Track { lengths, ..track }, move |inner, used, passed| {
+        let rows = rows.clone();
+        Kept { inner, used, passed, rows, next: 0, at: 0, all }
+    })
+}
+
+/// A track whose values come from those of another. `make` receives the other's stream, whether any column is used,
+/// and empty columns.
+fn over<'a, S: Stream + 'a>(
+    track: Track<'a>,
+    make: impl Fn(Box<dyn Stream + 'a>, bool, Vec<Column>) -> S + Send + 'a,
+) -> Track<'a> {
+    let Track { columns, lengths, what, open: inner } = track;
     let empty = columns.clone();
     let open = move |used: &[bool]| {
-        let (rows, passed) = (rows.clone(), empty.clone());
-        let used_any = used.contains(&true);
-        let stream =
-            Kept { inner: inner(used)?, used: used_any, passed, rows, next: 0, at: 0, all };
+        let stream = make(inner(used)?, used.contains(&true), empty.clone());
         Ok(Box::new(stream) as Box<dyn Stream + 'a>)
     };
     Track { columns, lengths, what, open: Box::new(open) }
@@ -436,20 +446,10 @@ pub(super) const UNEVEN: &str = "they do not have a value for each cell";
 /// The same values as the given track (values in a file, one row per cell), with the rows in the order of the points.
 /// All rows are in memory while they are read.
 pub(super) fn reordered<'a>(track: Track<'a>, cells: Arc<[u32]>) -> Track<'a> {
-    let Track { columns, lengths, what, open: inner } = track;
-    let empty = columns.clone();
-    let open = move |used: &[bool]| {
-        let stream = Reordered {
-            inner: inner(used)?,
-            used: used.contains(&true),
-            empty: empty.clone(),
-            all: None,
-            cells: cells.clone(),
-            next: 0,
-        };
-        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
-    };
-    Track { columns, lengths, what, open: Box::new(open) }
+    over(track, move |inner, used, empty| {
+        let cells = cells.clone();
+        Reordered { inner, used, empty, all: None, cells, next: 0 }
+    })
 }
 
 struct Reordered<'a> {

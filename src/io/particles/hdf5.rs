@@ -8,7 +8,7 @@
 //! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. If there are
 //!   several kinds of particles, those called fluid are read.
 //! - H5Part: groups `Step#N`. Other groups are frames if the word before a number in their name says so, or if they
-//!   have different times (see `hdf5_groups`).
+//!   have different times (see `groups`).
 //! - Gadget and SWIFT: the gas, group `PartType0`; the time is attribute `Time` of `Header`.
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
 //! - Positions of shape (frames, particles, 3) in any group, or components of shape (frames, particles). Other arrays
@@ -20,7 +20,11 @@
 //! Of an HDF5 file only arrays of the requested frame that have a meaning are read. Memory use is limited by the
 //! file's size.
 
-use std::collections::{BTreeMap, HashMap};
+mod groups;
+mod links;
+mod search;
+mod vtk;
+
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
@@ -35,13 +39,9 @@ use hdf5_reader::{
 
 use super::asked::Asked;
 use super::bytes::unpack_limit;
-use super::cells;
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
-use super::hdf5_groups::{self, Order};
-use super::hdf5_links;
 use super::names;
-use super::vtk_xml::{is_point, mesh_warning};
 use super::{Format, Particles};
 
 /// Magic bytes of HDF5.
@@ -187,9 +187,9 @@ impl File {
     fn frames(&self) -> Result<Vec<Frame>, ReadError> {
         let root = self.file.root_group().map_err(failed)?;
         if let Ok(grid) = root.group("VTKHDF") {
-            return of_vtk(&grid, self.limit);
+            return vtk::frames(&grid, self.limit);
         }
-        let mut frames = of_others(&self.file, &root, self.limit)?;
+        let mut frames = search::frames(&self.file, &root, self.limit)?;
         let time = [("solver_data", "t"), ("Header", "Time")]
             .into_iter()
             .find_map(|(group, name)| number(&root.group(group).ok()?, &[name]));
@@ -562,284 +562,9 @@ impl Part {
     }
 }
 
-/// The frames of a VTKHDF file.
-fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
-    let kind = |group: &Group| {
-        let attribute = group.attribute("Type").ok();
-        attribute.and_then(|a| a.read_string().ok()).unwrap_or_default()
-    };
-    let own = kind(grid);
-    let own = own.trim_end_matches('\0');
-    let blocks: Vec<Group> = match own {
-        "PolyData" | "UnstructuredGrid" => vec![grid.clone()],
-        "MultiBlockDataSet" | "PartitionedDataSetCollection" => {
-            let groups = grid.groups().map_err(failed)?;
-            groups.into_iter().filter(|group| group.dataset("Points").is_ok()).collect()
-        }
-        _ => {
-            return Err(ReadError::Unsupported {
-                what: format!("VTKHDF of type {own}"),
-                advice: "particles are PolyData or UnstructuredGrid: save one of these",
-            });
-        }
-    };
-    let mut frames: Vec<Frame> = Vec::new();
-    for block in &blocks {
-        let steps = block.group("Steps").or_else(|_| grid.group("Steps")).ok();
-        let counts = list(block, "NumberOfPoints", limit)?;
-        let steps = steps.as_ref().map(|steps| Steps::of(steps, block, limit)).transpose()?;
-        let (on_cells, told) = of_cells(block, &counts, limit)?;
-        let total = steps.as_ref().map_or(1, |steps| steps.values.len()).max(1);
-        if total > GROUPS {
-            return Err(ReadError::malformed("some steps", total.to_string(), Place::Unknown));
-        }
-        for step in 0..total {
-            let (first, parts) = match &steps {
-                Some(steps) => steps.at(step),
-                None => (0, 0..counts.len() as u64),
-            };
-            let some = parts.start as usize..parts.end as usize;
-            let points = counts.get(some).unwrap_or_default();
-            let points = points.iter().fold(0_u64, |sum, n| sum.saturating_add(*n));
-            let rows = |first: u64| Rows::Some(first..first.saturating_add(points));
-            let dataset = block.dataset("Points").map_err(failed)?;
-            let mut arrays = vec![Array::new("Points", dataset, rows(first))];
-            let data = block.group("PointData").ok().map(|data| data.datasets());
-            for dataset in data.transpose().map_err(failed)?.unwrap_or_default() {
-                let name = leaf(dataset.name());
-                let offsets = steps.as_ref().and_then(|steps| steps.offset(&name, step));
-                arrays.push(Array::new(&name, dataset, rows(offsets.unwrap_or(first))));
-            }
-            for (name, dataset) in &on_cells {
-                let offset = steps.as_ref().and_then(|steps| steps.offset_of_cells(name, step));
-                let name = cells::column_name(name);
-                arrays.push(Array::new(&name, dataset.clone(), rows(offset.unwrap_or(first))));
-            }
-            let part = Part {
-                name: leaf(block.name()),
-                arrays,
-                warnings: mesh(block, limit).into_iter().chain(told.clone()).collect(),
-            };
-            if frames.len() <= step {
-                let time = steps.as_ref().and_then(|steps| steps.values.get(step).copied());
-                frames.push(Frame { time, parts: Vec::new(), pieces: false });
-            }
-            if let Some(frame) = frames.get_mut(step) {
-                frame.parts.push(part);
-            }
-        }
-    }
-    if frames.is_empty() {
-        return Err(ReadError::malformed("blocks of points", "none", Place::Unknown));
-    }
-    Ok(frames)
-}
-
-/// A dataset and its name.
-type NamedSet = (String, Dataset);
-
-/// The attributes of the cells of a VTKHDF block, if each cell is the point of the same index, and warnings about
-/// cell attributes that are not used. `points` has the number of points of each part.
-fn of_cells(
-    block: &Group,
-    points: &[u64],
-    limit: usize,
-) -> Result<(Vec<NamedSet>, Vec<String>), ReadError> {
-    let datasets = |name: &str| {
-        let data = block.group(name).ok().map(|data| data.datasets());
-        let all = data.transpose().map_err(failed)?.unwrap_or_default();
-        Ok::<Vec<_>, ReadError>(all.into_iter().map(|set| (leaf(set.name()), set)).collect())
-    };
-    let some = |(_, set): &NamedSet| set.shape().first().is_some_and(|rows| *rows > 0);
-    let of_points = datasets("PointData")?;
-    let plain: Vec<String> = of_points.iter().map(|(name, _)| names::plain(name)).collect();
-    let (double, found): (Vec<NamedSet>, Vec<NamedSet>) = datasets("CellData")?
-        .into_iter()
-        .filter(some)
-        .partition(|(name, _)| plain.contains(&names::plain(name)));
-    let double = double.into_iter().map(|(name, _)| name);
-    let double: Vec<String> = double.filter(|name| !names::is_ghost(name)).collect();
-    let mut told: Vec<String> = cells::unused(&double, cells::DOUBLED).into_iter().collect();
-    if let (false, Some(why)) = (found.is_empty(), no_vertices(block, points, limit)) {
-        let names: Vec<String> = found.into_iter().map(|(name, _)| name).collect();
-        told.extend(cells::unused(&names, &cells::no_particles(&why)));
-        return Ok((Vec::new(), told));
-    }
-    Ok((found, told))
-}
-
-/// Why the cells of a VTKHDF block are not its points in the same order; `None` if each cell is one point.
-fn no_vertices(block: &Group, points: &[u64], limit: usize) -> Option<String> {
-    let vertices = block.group("Vertices").ok();
-    let group = vertices.as_ref().unwrap_or(block);
-    let all = |group: &Group, name: &str| {
-        list(group, name, limit).map_err(|error| format!("`{name}` cannot be read ({error})"))
-    };
-    let sum = |list: &[u64]| list.iter().fold(0_u64, |sum, n| sum.saturating_add(*n));
-    let others = ["Lines", "Polygons", "Strips"].into_iter().filter_map(|name| {
-        let group = block.group(name).ok()?;
-        Some(sum(&list(&group, "NumberOfCells", limit).ok()?))
-    });
-    let others = others.fold(0, u64::saturating_add);
-    if others > 0 {
-        return Some(format!("{others} of the cells are lines or faces"));
-    }
-    let lists = ["NumberOfCells", "Offsets", "Connectivity"].map(|name| all(group, name));
-    let [Ok(counts), Ok(offsets), Ok(connectivity)] = lists else {
-        return lists.into_iter().find_map(Result::err);
-    };
-    if counts != points {
-        let (cells, points) = (sum(&counts), sum(points));
-        return Some(format!("there are {cells} cells for {points} points"));
-    }
-    // Steps may share their cells.
-    let counted = |from: &mut std::slice::Iter<'_, u64>, count: u64| {
-        (0..count).all(|i| from.next() == Some(&i))
-    };
-    let (mut offsets, mut connectivity) = (offsets.iter(), connectivity.iter());
-    let in_order = points.iter().all(|n| {
-        (offsets.len() == 0 || counted(&mut offsets, n.saturating_add(1)))
-            && (connectivity.len() == 0 || counted(&mut connectivity, *n))
-    });
-    let read = offsets.len() == 0 && connectivity.len() == 0;
-    (!in_order || !read).then(|| "the cells are not the points in their order".to_string())
-}
-
-/// Where the particles of each step begin.
-struct Steps {
-    values: Vec<f64>,
-    points: Vec<u64>,
-    parts: Vec<u64>,
-    counts: Vec<u64>,
-    /// Names of the arrays that have an offset of their own for each step, with these offsets: arrays of points, and
-    /// arrays of cells.
-    arrays: [Vec<(String, Vec<u64>)>; 2],
-}
-
-impl Steps {
-    fn of(steps: &Group, block: &Group, limit: usize) -> Result<Self, ReadError> {
-        let dataset = steps.dataset("Values").map_err(failed)?;
-        let data = numbers(&dataset, type_of(&dataset), &Rows::All, limit)?;
-        let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
-        // In a collection each block has its own steps.
-        let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
-        let mut arrays = [const { Vec::new() }; 2];
-        for (to, name) in arrays.iter_mut().zip(["PointDataOffsets", "CellDataOffsets"]) {
-            let Ok(group) = own.group(name) else { continue };
-            for dataset in group.datasets().map_err(failed)? {
-                let name = leaf(dataset.name());
-                let offsets = list(&group, &name, limit)?;
-                to.push((name, offsets));
-            }
-        }
-        let points = list(&own, "PointOffsets", limit)?;
-        let or = |name: &str, each: u64| match own.dataset(name) {
-            Ok(_) => list(&own, name, limit),
-            Err(_) => Ok(vec![each; values.len()]),
-        };
-        let (parts, counts) = (or("PartOffsets", 0)?, or("NumberOfParts", 1)?);
-        Ok(Self { values, points, parts, counts, arrays })
-    }
-
-    /// The first point of a step, and its parts.
-    fn at(&self, step: usize) -> (u64, Range<u64>) {
-        let of = |list: &[u64]| list.get(step).copied().unwrap_or(0);
-        let part = of(&self.parts);
-        (of(&self.points), part..part.saturating_add(of(&self.counts)))
-    }
-
-    fn offset(&self, name: &str, step: usize) -> Option<u64> {
-        let [arrays, _] = &self.arrays;
-        let (_, offsets) = arrays.iter().find(|(array, _)| array == name)?;
-        offsets.get(step).copied()
-    }
-
-    fn offset_of_cells(&self, name: &str, step: usize) -> Option<u64> {
-        let [_, arrays] = &self.arrays;
-        let (_, offsets) = arrays.iter().find(|(array, _)| array == name)?;
-        offsets.get(step).copied()
-    }
-}
-
-/// Warning about the vertices of a mesh.
-fn mesh(block: &Group, limit: usize) -> Option<String> {
-    let cells = |name: &str| {
-        let group = block.group(name).ok()?;
-        Some(
-            list(&group, "NumberOfCells", limit)
-                .ok()?
-                .iter()
-                .fold(0_u64, |sum, n| sum.saturating_add(*n)),
-        )
-    };
-    let polygons = cells("Polygons").unwrap_or(0).saturating_add(cells("Strips").unwrap_or(0));
-    if polygons > 0 && cells("Vertices").unwrap_or(0) == 0 {
-        return Some(mesh_warning(polygons, "polygons"));
-    }
-    let types = list(block, "Types", limit).unwrap_or_default();
-    let more = types.iter().filter(|ty| !is_point(**ty as f64)).count();
-    (2 * more > types.len()).then(|| mesh_warning(types.len() as u64, "cells"))
-}
-
-/// Frames of positions with an additional dimension, and their times.
-fn stacked(arrays: &[Array], limit: usize) -> Result<Option<Frames>, ReadError> {
-    let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
-    let apart = names::have_positions(&names);
-    let count = arrays.iter().find_map(|array| match array.dataset.shape() {
-        [count, _, 2 | 3] if names::is_position(&array.name) => Some(*count),
-        [count, particles] if apart && names::is_component(&array.name) && *particles > 3 => {
-            Some(*count)
-        }
-        _ => None,
-    });
-    let Some(count) = count else { return Ok(None) };
-    let of = |array: &Array| array.dataset.shape().first() == Some(&count);
-    let times = arrays
-        .iter()
-        .find(|array| names::is_time(&array.name) && array.dataset.ndim() == 1 && of(array));
-    let times =
-        times.map(|array| numbers(&array.dataset, type_of(&array.dataset), &Rows::All, limit));
-    let times = times.transpose()?;
-    let frames = (0..count.min(GROUPS as u64)).map(|frame| {
-        let own = arrays.iter().filter(|array| !names::is_time(&array.name)).map(|array| {
-            let rows = if of(array) { Rows::Frame(frame) } else { Rows::All };
-            Array::new(&array.name, array.dataset.clone(), rows)
-        });
-        (times.as_ref().and_then(|times| times.f64(frame as usize)), own.collect())
-    });
-    Ok(Some(frames.collect()))
-}
-
 /// The last component of a path.
 fn leaf(path: &str) -> String {
     path.rsplit('/').next().unwrap_or(path).to_string()
-}
-
-/// The time of each frame, and its attributes.
-type Frames = Vec<(Option<f64>, Vec<Array>)>;
-
-/// A group with positions.
-struct Found {
-    path: String,
-    frames: Frames,
-}
-
-impl Found {
-    /// The dataset of the positions, which differs between groups unless one is a link to the other.
-    fn address(&self) -> u64 {
-        let mut arrays = self.frames.iter().flat_map(|(_, arrays)| arrays);
-        let position =
-            |array: &&Array| names::is_position(&array.name) || names::is_component(&array.name);
-        arrays.find(position).map_or(u64::MAX, |array| array.dataset.address())
-    }
-
-    /// The time, unless there are several.
-    fn time(&self) -> Option<f64> {
-        match self.frames.as_slice() {
-            [(time, _)] => *time,
-            _ => None,
-        }
-    }
 }
 
 /// The first of some names.
@@ -851,195 +576,4 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
         more => format!(" and {more} more"),
     };
     format!("{}{more}", first.join(", "))
-}
-
-/// The frames of a file that is not VTKHDF, found by its arrays and by the names of its groups.
-fn of_others(file: &Hdf5File, root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
-    let mut search = Search { file, limit, looked: 0, found: vec![], seen: vec![], links: vec![] };
-    search.group(root, ("", 0), None)?;
-    let Search { mut found, seen, links, .. } = search;
-    if found.is_empty() && !links.is_empty() {
-        let links = listed(links.iter().map(String::as_str));
-        return Err(ReadError::Unsupported {
-            what: format!("an HDF5 file that has no positions but links to other files ({links})"),
-            advice: "give the file that a link leads to, or copy its data into this one",
-        });
-    }
-    if found.is_empty() {
-        let names: Vec<_> = seen.into_iter().take(24).collect();
-        let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
-        return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
-    }
-    let mut told = Vec::new();
-    if !links.is_empty() {
-        let links = listed(links.iter().map(String::as_str));
-        told.push(format!("links to other files are not followed: {links}"));
-    }
-    // Of groups with the same positions, the one with the most arrays is read, and of these one with a number.
-    let worth = |found: &Found| {
-        let arrays = found.frames.first().map_or(0, |(_, arrays)| arrays.len());
-        (arrays, found.path.contains(|c: char| c.is_ascii_digit()))
-    };
-    let mut best = HashMap::new();
-    for found in &found {
-        let best = best.entry(found.address()).or_insert((worth(found), found.path.clone()));
-        if worth(found) > best.0 {
-            *best = (worth(found), found.path.clone());
-        }
-    }
-    found.retain(|found| best.get(&found.address()).is_some_and(|(_, path)| *path == found.path));
-    // Groups with other names beside the fluid hold walls. Gadget calls gas `PartType0`.
-    let gas = |found: &Found| found.path.to_lowercase().split('/').any(|name| name == "parttype0");
-    let fluid = |found: &Found| {
-        let path = found.path.to_lowercase();
-        ["fluid", "water", "liquid"].iter().any(|name| path.contains(name))
-    };
-    let mut keep = |kept: &dyn Fn(&Found) -> bool| {
-        if !found.iter().any(kept) {
-            return;
-        }
-        let (fluids, passed): (Vec<_>, Vec<_>) = found.drain(..).partition(kept);
-        if !passed.is_empty() {
-            let passed = listed(passed.iter().map(|found| found.path.as_str()));
-            told.push(format!("groups that are not fluid are not read: {passed}"));
-        }
-        found = fluids;
-    };
-    keep(&gas);
-    keep(&fluid);
-    let groups: Vec<_> = found.iter().map(|found| (found.path.as_str(), found.time())).collect();
-    let mut frames = match hdf5_groups::order(&groups) {
-        Order::Unsure if found.iter().all(|found| found.frames.len() < 2) => {
-            let groups = listed(groups.iter().map(|(path, _)| *path));
-            return Err(ReadError::Unsupported {
-                what: format!(
-                    "an HDF5 file of several groups whose names do not say what they are ({groups})"
-                ),
-                advice: "rename them, in h5py with h.move('OLD', 'NEW'): `water` is read alone, `step_1` and \
-                         `step_2` are frames, `rank_1` and `rank_2` are pieces of one frame",
-            });
-        }
-        Order::Frames(of) => {
-            let (mut all, mut beside) = (BTreeMap::<usize, Vec<Found>>::new(), Vec::new());
-            for (found, frame) in found.into_iter().zip(of) {
-                match frame {
-                    Some(frame) => all.entry(frame).or_default().push(found),
-                    None => beside.push(found.path),
-                }
-            }
-            if !beside.is_empty() {
-                let beside = listed(beside.iter().map(String::as_str));
-                told.push(format!("groups beside the frames are not read: {beside}"));
-            }
-            all.into_values().flat_map(merged).collect()
-        }
-        Order::Together | Order::Unsure => merged(found),
-    };
-    let parts = frames.iter_mut().filter_map(|frame| frame.parts.first_mut());
-    parts.for_each(|part| part.warnings.extend(told.clone()));
-    Ok(frames)
-}
-
-/// Joins groups frame by frame.
-fn merged(found: Vec<Found>) -> Vec<Frame> {
-    let paths: Vec<_> = found.iter().map(|found| found.path.as_str()).collect();
-    let pieces = hdf5_groups::are_pieces(&paths);
-    let mut frames: Vec<Frame> = Vec::new();
-    for Found { path, frames: own } in found {
-        for (i, (time, arrays)) in own.into_iter().enumerate() {
-            if frames.len() <= i {
-                frames.push(Frame { time, parts: Vec::new(), pieces });
-            }
-            if let Some(frame) = frames.get_mut(i) {
-                frame.parts.push(Part { name: path.clone(), arrays, warnings: Vec::new() });
-            }
-        }
-    }
-    frames
-}
-
-/// A search for positions.
-struct Search<'a> {
-    file: &'a Hdf5File,
-    limit: usize,
-    /// Number of groups that were searched.
-    looked: usize,
-    found: Vec<Found>,
-    /// Arrays, for messages.
-    seen: Vec<String>,
-    /// Links to other files, for messages.
-    links: Vec<String>,
-}
-
-impl Search<'_> {
-    /// Searches this group and those below it. `time` is that of the groups around it.
-    fn group(
-        &mut self,
-        group: &Group,
-        (path, depth): (&str, usize),
-        time: Option<f64>,
-    ) -> Result<(), ReadError> {
-        self.looked += 1;
-        if self.looked > GROUPS || depth > DEEP {
-            return Ok(());
-        }
-        let (groups, datasets) = group.members().map_err(failed)?;
-        self.links.extend(hdf5_links::external(self.file, group, path).map_err(failed)?);
-        let arrays: Vec<Array> = datasets
-            .into_iter()
-            .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All).with_unit())
-            .collect();
-        let time = number(group, &["TimeValue", "time", "Time", "t"])
-            .or_else(|| self.time(&arrays))
-            .or(time);
-        self.seen.extend(arrays.iter().map(|array| match array.dataset.dtype() {
-            Datatype::Compound { .. } => format!(
-                "{path}/{} (a table: save each of its columns as a dataset, h[name] = table[name] in h5py)",
-                array.name
-            ),
-            _ => format!("{path}/{}", array.name),
-        }));
-        let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
-        if names::may_have_positions(&names) {
-            let frames = stacked(&arrays, self.limit)?.unwrap_or_else(|| vec![(time, arrays)]);
-            self.found.push(Found { path: path.into(), frames });
-        }
-        // H5MD: one group per property, with its values in one dataset.
-        let value = |group: &Group| {
-            let dataset = group.dataset("value").ok()?;
-            let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;
-            Some((leaf(group.name()), dataset, frames))
-        };
-        let position = groups.iter().find(|group| leaf(group.name()) == "position");
-        if let Some((_, _, frames)) = position.and_then(value).filter(|(_, d, _)| d.ndim() == 3) {
-            let all: Vec<_> = groups.iter().filter_map(value).collect();
-            let times = position.and_then(|position| {
-                let dataset = position.dataset("time").ok()?;
-                numbers(&dataset, type_of(&dataset), &Rows::All, self.limit).ok()
-            });
-            let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
-                let own = all.iter().filter(|(_, _, count)| *count > frame);
-                let arrays = own.map(|(name, dataset, _)| {
-                    Array::new(name, dataset.clone(), Rows::Frame(frame)).with_unit()
-                });
-                (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
-            });
-            self.found.push(Found { path: path.into(), frames: frames.collect() });
-            return Ok(());
-        }
-        for inner in &groups {
-            let path = format!("{path}/{}", leaf(inner.name()));
-            self.group(inner, (&path, depth + 1), time)?;
-        }
-        Ok(())
-    }
-
-    /// The time in a dataset of one value.
-    fn time(&self, arrays: &[Array]) -> Option<f64> {
-        let time = arrays.iter().find(|array| {
-            let one = array.dataset.shape().iter().all(|n| *n == 1);
-            one && ["time", "times", "timevalue", "t"].contains(&names::plain(&array.name).as_str())
-        })?;
-        numbers(&time.dataset, type_of(&time.dataset), &Rows::All, self.limit).ok()?.f64(0)
-    }
 }

@@ -51,10 +51,6 @@ mod format;
 mod geo;
 #[cfg(feature = "hdf5")]
 mod hdf5;
-#[cfg(feature = "hdf5")]
-mod hdf5_groups;
-#[cfg(feature = "hdf5")]
-mod hdf5_links;
 mod head;
 mod heading;
 mod index;

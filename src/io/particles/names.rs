@@ -118,7 +118,7 @@ pub(super) const STEP: Names = &[
 ];
 /// Those of them that often mean something else, such as a temperature or a tag. They count only if their values look
 /// like the times of frames.
-const UNSURE_STEP: Names = &["t", "ts", "it", "output", "tempo"];
+const UNSURE_STEP: Names = &["t", "ts", "it", "output", "temps", "tempo"];
 
 /// Names to suggest in the error if there are no positions.
 pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";

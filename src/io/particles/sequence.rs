@@ -124,7 +124,7 @@ pub enum SequenceError {
     Link {
         /// The link.
         path: PathBuf,
-        /// What it names.
+        /// The target of the link.
         target: PathBuf,
     },
     /// A folder or file could not be listed.

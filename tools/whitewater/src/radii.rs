@@ -11,6 +11,7 @@ use whitewater::io::particles::{Particles, estimate_spacing, same_name};
 use crate::extras::find;
 use crate::failure::{Failure, Outcome};
 use crate::fluids::reorder;
+use crate::looks::round;
 use crate::surface_foam::quantile;
 
 /// Attribute names of radii.
@@ -142,12 +143,12 @@ const DOUBTED: [f32; 2] = [0.1, 2.0];
 /// Warning about radii of the files that do not fit the particles' spacing. Both are in one unit.
 pub fn misfit(radius: f32, spacing: f32) -> Option<String> {
     let [least, most] = DOUBTED.map(|share| share * spacing);
+    let half = 0.5 * spacing;
     (!(least..=most).contains(&radius)).then(|| {
         format!(
             "the radii of the files do not fit the particles' spacing: their median is {radius:.4e}, and half of the \
-             spacing is {:.4e} (another unit? --radius {:.4} sets the radius)",
-            0.5 * spacing,
-            0.5 * spacing
+             spacing is {half:.4e} (another unit? --radius {} sets the radius)",
+            round(half)
         )
     })
 }
@@ -266,7 +267,7 @@ mod tests {
         }
         for radius in [25.0, 0.0025, 0.11] {
             let told = misfit(radius, 0.05).unwrap();
-            assert!(told.contains("--radius 0.0250"), "{told}");
+            assert!(told.contains("--radius 0.025 "), "{told}");
         }
     }
 

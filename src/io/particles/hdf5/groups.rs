@@ -1,7 +1,7 @@
 //! Decides which groups of an HDF5 file are frames, by their names and times.
 //!
-//! The word before a number says what it counts: `step_0010` and `t=0.5` are frames, as is a bare number;
-//! `rank_3` is a piece of a frame; `body1` is neither.
+//! The word before the number in a group's name says what the number counts. `step_0010`, `t=0.5` and `0010` are
+//! frames. `rank_3` is a piece of a frame. `body1` is neither.
 
 /// What the groups with positions are.
 #[derive(Debug, PartialEq)]
