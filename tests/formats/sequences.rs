@@ -1,7 +1,9 @@
 //! Input arguments become a list of numbered frames.
 
 use super::folder::Folder;
-use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined, parse_range};
+use whitewater::io::particles::sequence::{
+    SequenceError, expand, expand_joined, parse_range, time_unit,
+};
 
 /// A folder of empty files.
 struct Files(Folder);
@@ -159,6 +161,73 @@ fn numbers_that_are_no_times() {
     // A pattern with `%d` determines which number is the frame.
     let files = ["f.1.0004.vtu", "f.1.0010.vtu"];
     assert_eq!(times("said", &files, "f.1.%04d.vtu"), [frame(4, files[0]), frame(10, files[1])]);
+}
+
+/// Units of time behind the numbers. Where they differ, the times order the frames.
+#[test]
+fn units_of_time_in_names() {
+    for (name, pattern, files) in [
+        (
+            "differ",
+            "w_*.csv",
+            &[
+                (0, "w_0.csv", 0.0),
+                (1, "w_900us.csv", 9.0e-4),
+                (2, "w_1ms.csv", 1.0e-3),
+                (3, "w_1500\u{b5}s.csv", 1.5e-3),
+                (4, "w_1.5s.csv", 1.5),
+                (5, "w_2min.csv", 120.0),
+                (6, "w_1h.csv", 3600.0),
+            ][..],
+        ),
+        ("one", "w_*.csv", &[(5, "w_5ms.csv", 0.005), (10, "w_10ms.csv", 0.01)]),
+        ("padded", "w_*.csv", &[(5, "w_0005us_a.csv", 5.0e-6), (10, "w_0010us_a.csv", 1.0e-5)]),
+        ("said", "w_%dms.csv", &[(5, "w_5ms.csv", 0.005), (10, "w_10ms.csv", 0.01)]),
+        ("points", "w_*.csv", &[(0, "w_000.50s.csv", 0.5), (1, "w_010.25s.csv", 10.25)]),
+        ("exponents", "w_*.csv", &[(0, "w_5.0e-04s.csv", 5.0e-4), (1, "w_2e-03s.csv", 2.0e-3)]),
+        ("folders", "*/p.csv", &[(0, "900ns/p.csv", 9.0e-7), (1, "1us/p.csv", 1.0e-6)]),
+        ("words", "*.csv", &[(10, "step_10s_fluid.csv", 10.0), (20, "step_20s_fluid.csv", 20.0)]),
+        // `1.10` is no pair of numbers if it has a unit.
+        ("pairs", "*.csv", &[(0, "w1.10s.csv", 1.1), (1, "w1.9s.csv", 1.9)]),
+        ("signs", "*.csv", &[(0, "w_-5ms.csv", -0.005), (1, "w_0ms.csv", 0.0)]),
+    ] {
+        let expected: Vec<_> = files
+            .iter()
+            .map(|(number, file, time)| (*number, Some(*time), (*file).into()))
+            .collect();
+        let mut names: Vec<_> = files.iter().map(|(_, file, _)| *file).collect();
+        names.sort();
+        assert_eq!(times(&format!("unit {name}"), &names, pattern), expected, "{name}");
+    }
+    // Letters that are no unit of time, or do not end the word.
+    let frame = |number, path: &str| (number, None, path.to_string());
+    for (name, files) in [
+        ("metres", [(9, "9m_run.csv"), (10, "10m_run.csv")]),
+        ("hex", [(3, "5h3.csv"), (4, "5h4.csv")]),
+        ("steps", [(2, "2steps.csv"), (10, "10steps.csv")]),
+        ("before", [(2, "t_s2.csv"), (10, "t_s10.csv")]),
+    ] {
+        let expected = files.map(|(number, file)| frame(number, file));
+        let names = files.map(|(_, file)| file);
+        assert_eq!(times(&format!("unit {name}"), &names, "*.csv"), expected, "{name}");
+    }
+    // One time in two units is one frame.
+    let folder = Files::new("unit twice", &["w_1000us.csv", "w_1ms.csv"]);
+    let error = expand(&[folder.input("*.csv")], None).unwrap_err().to_string();
+    assert!(error.contains("both frame 0"), "{error}");
+    for (text, length) in [
+        ("ms_fluid", Some(2)),
+        ("s", Some(1)),
+        ("\u{b5}s.csv", Some(3)),
+        ("min", Some(3)),
+        ("sec", Some(3)),
+        ("m", None),
+        ("steps", None),
+        ("h3", None),
+        ("", None),
+    ] {
+        assert_eq!(time_unit(text), length, "{text}");
+    }
 }
 
 #[test]
