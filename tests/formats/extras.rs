@@ -71,3 +71,26 @@ fn what_became_of_attributes_is_told() {
     assert_eq!(positions, &["x", "y", "z"]);
     assert_eq!(velocities[0], "Vel.x [m/s]");
 }
+
+/// Attributes that give the time of a frame, or mark ghosts, have a meaning. A time that is none has not.
+#[test]
+fn times_and_ghosts_have_a_meaning() {
+    let of = |name: &str, text: &str| {
+        let path = place(name);
+        std::fs::write(&path, text).unwrap();
+        let particles = read(&path).unwrap();
+        let part = |(meaning, names): &(Meaning, Vec<String>)| (*meaning, names.join(" "));
+        let all: Vec<_> = particles.meanings.iter().map(part).collect();
+        (particles.time, all[1..].to_vec())
+    };
+    for name in ["time", "Iteration", "Frame No.", "sim_time", "Snapshot"] {
+        let text = format!("x,y,z,{name}\n0,0,0,7\n1,0,0,7\n");
+        assert_eq!(of("time.csv", &text), (Some(7.0), vec![(Meaning::Time, name.into())]));
+    }
+    // A time of its own for each particle, such as its age, is none of the frame; a lone `t` is a temperature.
+    for text in ["x,y,z,time\n0,0,0,7\n1,0,0,8\n2,0,0,3\n", "x,y,z,t\n0,0,0,7\n1,0,0,7\n"] {
+        assert_eq!(of("none.csv", text), (None, Vec::new()), "{text}");
+    }
+    let text = "x,y,z,vtkGhostType\n0,0,0,0\n1,0,0,1\n";
+    assert_eq!(of("ghosts.csv", text).1, [(Meaning::Ghost, "vtkGhostType".to_string())]);
+}

@@ -428,7 +428,7 @@ impl Table {
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
         let roles = Roles::find(&shapes, placed, &self.attributes, &self.asked)?;
         roles.rows(&shapes)?;
-        let meanings = roles.meanings(&shapes, &self.attributes);
+        let mut meanings = roles.meanings(&shapes, &self.attributes);
         self.warnings.extend(roles.warnings());
         let columns = Columns::new(self.columns);
         let only = roles.steps.and_then(|_| self.asked.step()?.time);
@@ -436,6 +436,7 @@ impl Table {
         let mut particles = survey.part(&roles, columns, format);
         survey.drop_from(&mut particles);
         self.warnings.extend(survey.finish()?);
+        survey.settle(&mut meanings);
         let time = self.time.or(survey.time());
         Ok(Particles {
             attributes: self.attributes,
@@ -703,6 +704,8 @@ impl Roles {
             (Meaning::Lifetime, self.lifetimes),
             (Meaning::Id, self.ids),
             (Meaning::Kind, self.kinds),
+            (Meaning::Time, self.steps),
+            (Meaning::Ghost, self.ghosts),
         ];
         let vectors = vectors.into_iter().filter_map(|(meaning, vector)| {
             let columns: Vec<_> = vector?.columns().collect();

@@ -16,6 +16,10 @@ pub enum Meaning {
     Lifetime,
     /// Kind of a particle, as a number; for whitewater 0 foam, 1 spray, 2 bubble.
     Kind,
+    /// Time or step number, which gives the frame's time or tells the frames of a file apart.
+    Time,
+    /// Mark of a particle that is a copy of one in another piece of the file, and left out.
+    Ghost,
 }
 
 impl std::fmt::Display for Meaning {
@@ -27,6 +31,8 @@ impl std::fmt::Display for Meaning {
             Self::Id => "id",
             Self::Lifetime => "lifetime",
             Self::Kind => "kind",
+            Self::Time => "time",
+            Self::Ghost => "ghost",
         })
     }
 }

@@ -213,7 +213,8 @@ impl<'a> Plan<'a> {
         let mut warnings = self.warnings;
         warnings.extend(survey.finish()?);
         let time = self.time.or(survey.time());
-        let (attributes, meanings) = (self.attributes, self.meanings);
+        let (attributes, mut meanings) = (self.attributes, self.meanings);
+        survey.settle(&mut meanings);
         Ok(Particles { attributes, meanings, warnings, time, ..particles })
     }
 
@@ -253,6 +254,7 @@ impl<'a> Plan<'a> {
         pass.survey.drop_from(&mut about);
         about.attributes.clone_from(&self.attributes);
         about.meanings.clone_from(&self.meanings);
+        pass.survey.settle(&mut about.meanings);
         about.warnings.clone_from(&self.warnings);
         about.warnings.extend(pass.survey.finish()?);
         about.time = self.time.or(pass.survey.time());

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use super::columns::{Column, Data, Extra, Roles, Vector};
 use super::error::ReadError;
 use super::names::{self, OF_CELLS};
-use super::{Format, Particles};
+use super::{Format, Meaning, Particles};
 
 /// Converts values to integers.
 type Whole = fn(&Data) -> Result<Vec<u32>, usize>;
@@ -273,6 +273,11 @@ impl Survey {
     /// The requested time, or else the time of all particles if there is only one.
     pub(super) fn time(&self) -> Option<f64> {
         self.only.or(self.one_time())
+    }
+
+    /// Removes the meaning of a time from an attribute that gave none, because its values differ or mean something else.
+    pub(super) fn settle(&self, meanings: &mut Vec<(Meaning, Vec<String>)>) {
+        meanings.retain(|(meaning, _)| *meaning != Meaning::Time || self.time().is_some());
     }
 
     fn one_time(&self) -> Option<f64> {
