@@ -711,3 +711,52 @@ fn a_first_column_that_counts_is_the_id() {
         assert_eq!(read(&table(separator, 0, 3), hint).positions[4], [4.0, 5.5, 2.0]);
     }
 }
+
+/// A row of units below the names: each unit is behind its name, as if it stood there in brackets.
+#[test]
+fn a_row_of_units_is_read() {
+    let rows = "0 0 0 1 7 900\n1 2 3 1 8 1000\n";
+    for (names, units, expected) in [
+        (
+            "x y z vx id rho",
+            "mm mm mm mm/s - kg/m3",
+            "x [mm],y [mm],z [mm],vx [mm/s],id,rho [kg/m3]",
+        ),
+        (
+            "x y z vx id rho",
+            "[m] [m] [m] [m/s] [1] [kg/m^3]",
+            "x [m],y [m],z [m],vx [m/s],id,rho [kg/m^3]",
+        ),
+        (
+            "x y z vx id rho",
+            "(cm) (cm) (cm) (cm/s) () (g)",
+            "x [cm],y [cm],z [cm],vx [cm/s],id,rho [g]",
+        ),
+        ("# x y z vx id rho", "# mm mm mm mm/s 1 g", "x [mm],y [mm],z [mm],vx [mm/s],id,rho [g]"),
+        ("x[m] y[m] z[m] vx id rho", "mm mm mm m/s - g", "x[m],y[m],z[m],vx [m/s],id,rho [g]"),
+        // Rules, words and types are no units.
+        ("x y z vx id rho", "- - - - - -", "x,y,z,vx,id,rho"),
+        ("x y z vx id rho", "real real real real int real", "x,y,z,vx,id,rho"),
+    ] {
+        for separator in [" ", ",", ";", "\t"] {
+            let join = |text: &str| text.replace(' ', separator);
+            let text = format!("{}\n{}\n{}", join(names), join(units), join(rows));
+            let text = if names.starts_with('#') {
+                text.replace("#,", "#").replace("#;", "#")
+            } else {
+                text
+            };
+            let p = read(&text, Extension::Csv);
+            let found: Vec<_> = p.attributes.iter().map(|a| a.name.as_str()).collect();
+            assert_eq!(found.join(","), expected, "{text}");
+            assert_eq!(p.positions, [[0.0; 3], [1.0, 2.0, 3.0]], "{text}");
+            assert_eq!(p.ids.as_deref(), Some(&[7, 8][..]), "{text}");
+        }
+    }
+    // Between commas a unit may be missing.
+    let p = read("id,x,y,z\n,m,m,m\n7,0,0,0\n8,1,1,1\n", Extension::Csv);
+    assert_eq!(p.meanings[0].1, ["x [m]", "y [m]", "z [m]"]);
+    // Between spaces it would be that of another column.
+    let p = read("id x y z\nm m m\n7 0 0 0\n8 1 1 1\n", Extension::Xyz);
+    assert_eq!(p.meanings[0].1, ["x", "y", "z"]);
+}

@@ -7,7 +7,7 @@
 
 use super::bytes::parse_number;
 use super::error::ReadError;
-use super::names::{have_positions, is_position};
+use super::names::{have_positions, is_position, is_suffix};
 use super::source::Content;
 use super::tecplot;
 use super::text::Text;
@@ -185,6 +185,40 @@ fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
         .then_some((at, row.1))
 }
 
+/// Units of length. A line of words below the names holds units if one of them is here.
+const LENGTHS: [&str; 11] =
+    ["m", "mm", "cm", "dm", "km", "um", "\u{b5}m", "\u{3bc}m", "in", "ft", "metre"];
+
+/// If a line below the names holds units, puts each in brackets behind its name: `x [mm]`, as other files have it.
+fn add_units(names: &mut [String], line: &[u8], separator: Option<u8>) {
+    // Without a separator, brackets in a row would count as one field.
+    let words = match separator {
+        Some(_) => fields(line, separator),
+        None => String::from_utf8_lossy(line).split_whitespace().map(String::from).collect(),
+    };
+    let bare = |word: &String| {
+        let word = word.trim_matches(['"', '\'']).trim();
+        let inner = word.strip_prefix(['[', '(']).and_then(|word| word.strip_suffix([']', ')']));
+        inner.unwrap_or(word).trim().to_string()
+    };
+    let units: Vec<String> = words.iter().map(bare).collect();
+    // Blank units between spaces cannot be seen, so that the others could belong to any name.
+    let fits = match separator {
+        Some(_) => units.len() <= names.len(),
+        None => units.len() == names.len(),
+    };
+    if !fits || !units.iter().any(|unit| LENGTHS.contains(&unit.as_str())) {
+        return;
+    }
+    for (name, unit) in names.iter_mut().zip(units) {
+        // `[1]` and `[-]` are no units, and `[1]` would be a component.
+        let unitless = !unit.contains(char::is_alphabetic) || is_suffix(&unit);
+        if !unitless && !name.contains(['[', '(']) {
+            *name = format!("{name} [{unit}]");
+        }
+    }
+}
+
 impl Heading {
     pub(super) fn of(lines: &[Line]) -> Self {
         let passed = |upto: usize| {
@@ -214,7 +248,9 @@ impl Heading {
                     && count.as_ref().is_none_or(|count| count.contains(&names.len()))
                     && have_positions(names)
             });
-            if let Some(names) = names {
+            if let Some(mut names) = names {
+                let next = lines.get(i + 1).map(|line| uncommented(&line.text).0);
+                next.into_iter().for_each(|line| add_units(&mut names, line, separator));
                 let passed = passed(i);
                 let (i, line) =
                     below.map_or((i, line), |(units, _)| (units, lines.get(units).unwrap_or(line)));

@@ -126,6 +126,11 @@ pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points
 /// Suffixes of the components of a vector.
 const SUFFIXES: [[&str; 3]; 5] =
     [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"], ["i", "j", "k"], ["u", "v", "w"]];
+/// Whether a text in brackets names a component.
+pub(super) fn is_suffix(text: &str) -> bool {
+    SUFFIXES.iter().any(|suffixes| suffixes.contains(&text.to_ascii_lowercase().as_str()))
+}
+
 /// Words before the name of a vector that are ignored.
 const WORDS: [&str; 7] =
     ["particles", "particle", "parcel", "part", "track", "translational", "linear"];
@@ -153,7 +158,7 @@ pub(super) fn plain(name: &str) -> String {
         let (inner, behind) = behind.split_once(closing).unwrap_or((behind, ""));
         let inner = inner.trim().to_ascii_lowercase();
         // A unit, unless it names a component.
-        if !out.is_empty() && SUFFIXES.iter().any(|s| s.contains(&inner.as_str())) {
+        if !out.is_empty() && is_suffix(&inner) {
             out.push_str(&inner);
         }
         rest = behind;
