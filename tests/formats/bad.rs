@@ -6,7 +6,8 @@ use std::path::Path;
 use super::samples::{self, Has};
 use super::{allocation, samples::npy};
 use whitewater::io::particles::{
-    Compression, Extension, Particles, Parts, ReadError, Storage, read, read_bytes,
+    Compression, Extension, Format, Particles, Parts, ReadError, Storage, read, read_bytes,
+    read_step, steps,
 };
 
 const HINTS: [Extension; 15] = [
@@ -551,5 +552,209 @@ fn more_rows_of_ply_than_counted() {
         let error = refused(text.as_bytes(), Extension::Ply, &parts).to_string();
         let parts = Parts::of_bytes(text.as_bytes(), Extension::Ply, 1).map(|_| ()).unwrap_err();
         assert_eq!(parts.to_string(), error);
+    }
+}
+
+/// A file that was cut off is read as the whole one, or the error says so and what to do. Only a table without a count
+/// may lack rows without a word.
+#[test]
+fn files_that_were_cut_off_are_told() {
+    let check = |name: &str, cut: Result<Particles, ReadError>, whole: &Particles| match cut {
+        Ok(p) => {
+            let same = Particles { warnings: Vec::new(), ..p.clone() }
+                == Particles { warnings: Vec::new(), ..whole.clone() };
+            // Legacy VTK has no mark of its end.
+            let told = same || !p.warnings.is_empty() || name.starts_with("vtk ");
+            assert!(told, "{name}: another result without a word");
+        }
+        Err(error) => assert!(error.to_string().contains("write it again"), "{name}: {error}"),
+    };
+    for sample in samples::all() {
+        let whole = read_bytes(&sample.bytes, sample.hint).unwrap();
+        if matches!(sample.format, Format::Csv | Format::Xyz | Format::RawF32) {
+            continue;
+        }
+        for part in [15, 40, 65, 90, 97] {
+            let cut = read_bytes(&sample.bytes[..sample.bytes.len() * part / 100], sample.hint);
+            check(&format!("{} {part}", sample.name), cut, &whole);
+        }
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/hdf5");
+    for name in ["units.h5", "pysph.hdf5", "grid.vtkhdf", "steps.h5part", "matlab.mat"] {
+        let bytes = std::fs::read(folder.join(name)).unwrap();
+        for part in [40, 65, 90, 99] {
+            let cut = &bytes[..bytes.len() * part / 100];
+            refused(cut, Extension::Unknown, &["ends too early: HDF5", "write it again"]);
+        }
+    }
+    for (name, end) in [("cloud.xdmf", 700), ("series.xdmf", 500)] {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cut_{name}"));
+        std::fs::write(&path, &std::fs::read(folder.join(name)).unwrap()[..end]).unwrap();
+        let error = read(&path).unwrap_err().to_string();
+        assert!(error.contains("the XML of an XDMF file, up to `</Xdmf>`"), "{error}");
+    }
+}
+
+/// What is said of files of each kind that were cut off.
+#[test]
+fn what_was_cut_off_is_named() {
+    let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n4\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n\
+                ITEM: ATOMS id x y z\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+    let of_dump = "expected 4 rows in a dump of LAMMPS, as its `ITEM: NUMBER OF ATOMS` says, found";
+    let steps = "the dump was cut off: write it again; the whole steps before this one can be read";
+    let counted = "4\ncomment\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+    let of_xyz = "expected 4 rows in an XYZ file, as the count above them says, found";
+    let table = "x,y,z,vx\n0,0,0,1\n1,0,0,1\n";
+    let last = "this is the last line of the table, which was perhaps cut off: write it again";
+    let vtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n";
+    let xml = "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><Points>";
+    for (text, hint, parts) in [
+        (dump.replace("4 0 0 1\n", ""), Extension::Unknown, [of_dump, "found 3 in line 12", steps]),
+        (dump.replace("4 0 0 1\n", "4 0"), Extension::Unknown, [of_dump, "found 3 in", steps]),
+        (dump.replace("\n1 0 0 0", ""), Extension::Unknown, [of_dump, "found 3 in", steps]),
+        (dump[..dump.len() - 38].into(), Extension::Unknown, [of_dump, "found 0 in line 9", steps]),
+        (format!("{dump}5 0 0 1\n"), Extension::Unknown, [of_dump, "found 5 in", "rows are wrong"]),
+        (
+            dump[..40].into(),
+            Extension::Unknown,
+            ["items of a dump of LAMMPS", "found \"none\"", "write it again"],
+        ),
+        (
+            counted.replace("0 0 1\n", ""),
+            Extension::Xyz,
+            [of_xyz, "found 3 in line 5", "the whole frames before this one can be read"],
+        ),
+        (counted.replace("0 0 1\n", "0 "), Extension::Xyz, [of_xyz, "found 3 in", "was cut off"]),
+        (format!("{table}1,0"), Extension::Csv, ["expected 4 fields", "found 2 in line 4", last]),
+        (format!("{table}1,0,0,-"), Extension::Csv, ["a number in column `vx`", "line 4", last]),
+        (table.replace(',', " ") + "1 0", Extension::Xyz, ["expected 4 values", "line 4", last]),
+        (
+            format!("{vtk}POINT_DA"),
+            Extension::Vtk,
+            ["ends too early", "the name of a section of legacy VTK", "write it again"],
+        ),
+        (
+            xml.into(),
+            Extension::Vtp,
+            ["ends too early", "the XML of a VTK file, up to `</VTKFile>`", "write it again"],
+        ),
+        (
+            "[[0, 0, 0], [0, 1".into(),
+            Extension::Json,
+            ["ends too early", "the JSON, up to the end of its first list", "write it again"],
+        ),
+    ] {
+        refused(text.as_bytes(), hint, &parts);
+    }
+    // A row that is wrong is not the last one.
+    let error = refused(format!("{table}1,0\n1,0,0,1\n").as_bytes(), Extension::Csv, &["line 4"]);
+    assert!(!error.to_string().contains(last), "{error}");
+    let text = table.replace(',', " ") + "1 0\n1 0 0 1\n";
+    let error = refused(text.as_bytes(), Extension::Xyz, &["line 4"]);
+    assert!(!error.to_string().contains(last), "{error}");
+    // Another word is no section that was cut off.
+    let p = read_bytes(format!("{vtk}PICTURE").as_bytes(), Extension::Vtk).unwrap();
+    assert!(p.warnings[0].contains("unknown section \"PICTURE\""), "{:?}", p.warnings);
+    let zip = samples::npz(&[("position", npy("<f4", "(1, 3)", false, 1, &[0; 12]))], false);
+    let parts = ["a sound zip of arrays (NPZ), with its list of contents at the end"];
+    refused(&zip[..zip.len() - 40], Extension::Npz, &parts);
+}
+
+/// Steps of a dump before one that was cut off, in its rows or before them, are read, and that one is told.
+#[test]
+fn steps_before_one_that_was_cut_off_are_read() {
+    let step = |time: usize, rows: &str| {
+        format!(
+            "ITEM: TIMESTEP\n{time}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n\
+             ITEM: ATOMS id x y z\n{rows}"
+        )
+    };
+    let whole = step(0, "1 0 0 0\n2 1 0 0\n") + &step(1, "1 0 0 0\n2 1 0 1\n");
+    for (name, more, told) in [
+        ("rows", step(2, "1 0 0 0\n"), "found 1 in line 32"),
+        ("within", step(2, "1 0"), "found 0 in line 32"),
+        ("names", step(2, "")[..60].to_string(), "write it again"),
+        ("time", "ITEM: TIMESTEP\n".into(), "items of a dump of LAMMPS"),
+    ] {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("cut_{name}.dump"));
+        std::fs::write(&path, whole.clone() + &more).unwrap();
+        let found = steps(&path).unwrap();
+        assert_eq!(found.len(), 3, "{name}");
+        for step in &found[..2] {
+            assert_eq!(read_step(&path, *step, &[]).unwrap().positions.len(), 2, "{name}");
+        }
+        let error = read_step(&path, found[2], &[]).unwrap_err().to_string();
+        assert!(error.contains(told), "{name}: {error}");
+    }
+}
+
+/// A PLY file whose count of vertices is wrong and whose polygons follow: polygons would be taken as vertices, or
+/// vertices be left out.
+#[test]
+fn vertices_of_ply_are_counted_right() {
+    let face = "element face 2\nproperty list uchar int vertex_indices\n";
+    let head = |format: &str, count: usize, more: &str| {
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n\
+             {more}end_header\n"
+        )
+    };
+    let points = [[0.5_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [3.0, 1.0, 2.0]];
+    let faces = [[0, 1, 2], [1, 2, 3]];
+    let text = |points: &[[f32; 3]]| {
+        let points = points.iter().map(|[x, y, z]| format!("{x} {y} {z}\n"));
+        let faces = faces.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n"));
+        points.chain(faces).collect::<String>().into_bytes()
+    };
+    let binary = |points: &[[f32; 3]]| {
+        let mut bytes = samples::floats(points.as_flattened(), 4, false);
+        for face in faces {
+            bytes.push(3);
+            bytes.extend(samples::ints(&face, 4, false));
+        }
+        bytes
+    };
+    let check = |bytes: &[u8]| {
+        let whole = read_bytes(bytes, Extension::Ply).map(|p| p.positions.len());
+        let mut parts = 0;
+        let read = Parts::of_bytes(bytes, Extension::Ply, 1).map(|all| {
+            all.for_each(|part| parts += part.unwrap().positions.len());
+            parts
+        });
+        let told = |error: ReadError| error.to_string();
+        let (whole, read) = (whole.map_err(told), read.map_err(told));
+        assert_eq!(whole, read);
+        whole
+    };
+    let whole: Vec<[f32; 3]> = points.map(|[x, y, z]| [x.floor(), y, z]).into();
+    for points in [&points[..], &whole] {
+        for (format, rows) in [("ascii", text(points)), ("binary_little_endian", binary(points))] {
+            for count in 1..=6 {
+                let bytes = [head(format, count, face).into_bytes(), rows.clone()].concat();
+                let found = check(&bytes);
+                match found {
+                    Ok(found) => assert!(count == 4 && found == 4, "{format} {count}: {found}"),
+                    Err(error) => {
+                        assert!(count != 4, "{format}: {error}");
+                        let parts = ["element `", "write it again"];
+                        assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+                        let after = format!("after the {count} rows of element `vertex`");
+                        assert!(count > 4 || error.contains(&after), "{format} {count}: {error}");
+                    }
+                }
+            }
+        }
+    }
+    // Without polygons, vertices may follow those that are counted.
+    for (count, more) in [(4, ""), (3, "found 12 more bytes"), (5, "ends too early")] {
+        let bytes = [
+            head("binary_little_endian", count, "").into_bytes(),
+            samples::floats(points.as_flattened(), 4, false),
+        ]
+        .concat();
+        match check(&bytes) {
+            Ok(found) => assert_eq!((found, more), (4, "")),
+            Err(error) => assert!(!more.is_empty() && error.contains(more), "{error}"),
+        }
     }
 }

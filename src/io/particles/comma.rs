@@ -168,6 +168,17 @@ impl RowReader for Records<'_> {
         if !std::mem::take(&mut self.unread) && !self.next_record()? {
             return Ok(false);
         }
+        self.row(columns).map_err(|error| match self.next_record() {
+            Ok(false) => error.in_last_row(),
+            _ => error,
+        })?;
+        Ok(true)
+    }
+}
+
+impl Records<'_> {
+    /// Appends the values of the record.
+    fn row(&mut self, columns: &mut [Column]) -> Result<(), ReadError> {
         // A separator may end the line.
         let more = self.record.iter().skip(self.names.len());
         if self.record.len() < self.names.len() || more.into_iter().any(|f| !f.is_empty()) {
@@ -191,6 +202,6 @@ impl RowReader for Records<'_> {
         if self.numbered.is_none() {
             self.numbered = Some(self.begins_with_number());
         }
-        Ok(true)
+        Ok(())
     }
 }

@@ -165,6 +165,19 @@ impl ReadError {
         }
     }
 
+    /// The same error in the last row of a table, which was probably cut off.
+    pub(super) fn in_last_row(self) -> Self {
+        match self {
+            Self::Unclear { expected, found, place, .. } => Self::Unclear {
+                expected,
+                found,
+                place,
+                advice: "this is the last line of the table, which was perhaps cut off: write it again",
+            },
+            other => other,
+        }
+    }
+
     /// An error in JSON.
     pub(super) fn json(expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self::Unclear {

@@ -75,6 +75,44 @@ fn is_here(has: &mut dyn FnMut(usize, &[u8]) -> bool) -> bool {
     starts().any(|at| has(at, MAGIC)) && !has(257, b"ustar")
 }
 
+/// Checks that a file is as long as its superblock says, as the HDF5 library does. The reader would not notice missing
+/// attributes, such as units.
+///
+/// # Errors
+/// [`ReadError::Truncated`] if the file is shorter.
+fn whole(storage: &dyn Storage) -> Result<(), ReadError> {
+    let bytes = |at: u64, count: usize| {
+        let range = storage.read_range(at, count).ok()?;
+        Some(range.to_vec()).filter(|bytes| bytes.len() == count)
+    };
+    let number = |at: u64, size: u8| {
+        let bytes = bytes(at, size.into())?;
+        Some(bytes.iter().rev().fold(0, |number: u64, byte| number << 8 | u64::from(*byte)))
+    };
+    let end = || {
+        let begins = |at: &u64| bytes(*at, MAGIC.len()).is_some_and(|found| found == MAGIC);
+        let start = starts().map(|at| at as u64).find(begins)?;
+        let version = number(start + 8, 1)?;
+        // The width of addresses, and the third of the addresses is that of the end.
+        let (width, addresses) = match version {
+            0 => (13, 24),
+            1 => (13, 28),
+            _ => (9, 12),
+        };
+        let width = number(start + width, 1).filter(|width| matches!(width, 2 | 4 | 8))?;
+        number(start + addresses + 2 * width, width as u8)
+    };
+    match end() {
+        Some(end) if end > storage.len() => Err(ReadError::Truncated {
+            what: "HDF5, as its header says,".into(),
+            offset: 0,
+            needed: end,
+            found: storage.len(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Times of the frames of a file; `None` for another format.
 pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> {
     is_one(path).then(|| File::open(path)?.times())
@@ -143,6 +181,7 @@ impl File {
     }
 
     fn of(storage: Arc<dyn Storage>) -> Result<Self, ReadError> {
+        whole(&*storage)?;
         let limit = unpack_limit(usize::try_from(storage.len()).unwrap_or(usize::MAX));
         let options = OpenOptions::default()
             .with_max_read_bytes(limit)

@@ -98,6 +98,14 @@ impl Head {
             let line = lines.next().unwrap_or_default();
             let column = line.char_indices().nth(position.col.saturating_sub(1) as usize);
             let at = before + column.map_or(line.len(), |(i, _)| i);
+            // Nothing follows the end of the root.
+            let end = "</VTKFile>";
+            if !self.text.trim_end().ends_with(end) {
+                let all = self.text.len();
+                let offset = file_offset(&self.cuts, self.mark, all);
+                let what = format!("the XML of a VTK file, up to `{end}`,");
+                return ReadError::Truncated { what, offset, needed: 1, found: 0 };
+            }
             // The parser's position counts in the shortened text; make it one in the file.
             let there = format!(" at {}:{}", self.line(at), self.column(at));
             let found = e.to_string().replace(&format!(" at {position}"), &there);

@@ -136,24 +136,26 @@ pub(super) type Timed = (PathBuf, Option<f64>);
 /// A description of the expected form.
 pub(super) fn frames(path: &Path) -> Result<Option<Vec<Timed>>, String> {
     let Some(text) = text(path, &["pvd", "series"]) else { return Ok(None) };
+    let bad = |found: String| format!("{found}; it was cut off or is damaged: write it again");
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut frames: Vec<Timed> = Vec::new();
     if text.trim_start().starts_with('{') {
-        let list: serde_json::Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
+        let list: serde_json::Value =
+            serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
         for file in list.get("files").and_then(|files| files.as_array()).into_iter().flatten() {
             let name = file.get("name").and_then(|name| name.as_str());
             let time = file.get("time").and_then(serde_json::Value::as_f64);
             frames.extend(name.map(|name| (beside(folder, name), time)));
         }
     } else {
-        let document = Document::parse(&text).map_err(|e| e.to_string())?;
+        let document = Document::parse(&text).map_err(|e| bad(e.to_string()))?;
         for node in document.root_element().descendants().filter(|n| n.has_tag_name("DataSet")) {
             let time = node.attribute("timestep").and_then(|time| time.trim().parse().ok());
             frames.extend(node.attribute("file").map(|file| (beside(folder, file), time)));
         }
     }
     if frames.is_empty() {
-        return Err("files in it, found none".into());
+        return Err("files in it, found none; write it again".into());
     }
     Ok(Some(frames))
 }

@@ -92,6 +92,10 @@ fn of_value(value: Value, asked: &Asked) -> Result<Particles, ReadError> {
 fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
     let mut values = serde_json::Deserializer::from_slice(bytes).into_iter::<Value>();
     let bad = |e: serde_json::Error| {
+        if e.is_eof() {
+            let what = "the JSON, up to the end of its first list or object,";
+            return ReadError::truncated(what, bytes.len(), 1, 0);
+        }
         ReadError::malformed("JSON", e.to_string(), Place::Line(e.line() as u64))
     };
     let Some(first) = values.next() else {

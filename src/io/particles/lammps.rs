@@ -30,7 +30,13 @@ pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<S
         let (at, lines) = (text.at(), number);
         let (mut time, mut left, mut before) = (None, None::<u64>, Item::Other);
         loop {
-            let Some(line) = text.line()? else { return Ok(starts) };
+            let Some(line) = text.line()? else {
+                // A step that was cut off before its atoms is one too, so that its loss is told.
+                if number > lines {
+                    starts.push(Start { at, lines, time });
+                }
+                return Ok(starts);
+            };
             number += 1;
             let line = line.trim_ascii();
             let word = std::str::from_utf8(line).unwrap_or_default();
@@ -85,7 +91,7 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
     let mut bounds = Bounds::default();
     let bad = |line: &[u8], number| {
         ReadError::malformed(
-            "the items of a dump, ATOMS after their number",
+            "the items of a dump of LAMMPS, ATOMS after their number",
             show(line),
             Place::Line(number),
         )
@@ -123,6 +129,10 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
             true => None,
             false => Some(bounds.basis(&scaled, &names)?),
         };
+        // The line of the names may be cut off too.
+        if count > 0 && text.ahead(1)?.is_empty() {
+            return Err(xyz::cut(true, (count, 0), content.lines_before() + number));
+        }
         let about = About { time, ..About::new(Format::Lammps, asked) };
         let start = text.at();
         let text = Text::new(content.open(start, content.length())?);

@@ -116,8 +116,7 @@ pub struct Particles {
     /// Every attribute in the file, including positions and attributes that are not read.
     pub attributes: Vec<Attribute>,
     /// Each meaning (position, velocity, ...) that was found in the file, with the names of its attributes; positions
-    /// come first. An attribute that is named nowhere here was ignored, unless it is in [`extras`](Self::extras) or
-    /// marks ghosts or time steps.
+    /// come first. An attribute that is named nowhere here was ignored, unless it is in [`extras`](Self::extras).
     pub meanings: Vec<(Meaning, Vec<String>)>,
     /// Attributes that were requested with [`read_with`].
     pub extras: Vec<Extra>,
@@ -290,7 +289,10 @@ fn read_plain(
         format::Reader::VtkLegacy => vtk_legacy::plan(&content()?, asked)?.read(),
         format::Reader::VtkXml => vtk_xml::plan(&content()?, asked)?.read(),
         format::Reader::Ply => match ply::layout(bytes, asked)?.0 {
-            Some(layout) => layout.read(bytes),
+            Some(layout) => {
+                ply::check_end(&content()?, &layout.rows)?;
+                layout.read(bytes)
+            }
             None => table::plan(&content()?, ply::open, asked)?.read(),
         },
         format::Reader::Npy => numpy::read_npy(bytes, asked),

@@ -456,7 +456,8 @@ pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>,
 }
 
 fn bad_zip(error: zip::result::ZipError) -> ReadError {
-    ReadError::malformed("a sound zip of arrays", error.to_string(), Place::Unknown)
+    let expected = "a sound zip of arrays (NPZ), with its list of contents at the end";
+    ReadError::malformed(expected, error.to_string(), Place::Unknown)
 }
 
 /// The arrays of an NPZ file that are used although their names are not known ones.

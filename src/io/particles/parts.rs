@@ -330,7 +330,12 @@ pub(super) fn plan<'a>(
             let length = layout.rows.header;
             Ok((layout, length))
         })?),
-        format::Reader::Ply => source::header(&mut source, |head| ply::layout(head, asked))?,
+        format::Reader::Ply => {
+            let layout = source::header(&mut source, |head| ply::layout(head, asked))?;
+            let rows = layout.as_ref().map(|layout| &layout.rows);
+            rows.map_or(Ok(()), |rows| ply::check_end(&Content::new(input, gzip)?, rows))?;
+            layout
+        }
         format::Reader::Npy => {
             let layout = source::header(&mut source, |head| numpy::layout(head, asked))?;
             numpy::check_end(&Content::new(input, gzip)?)?;

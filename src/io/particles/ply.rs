@@ -2,8 +2,8 @@
 //!
 //! The header consists of lines (`ply`, `format`, `element name count`, `property type name`, `property list
 //! type type name`, `comment`, `obj_info`, `end_header`). The elements follow in the order of the header, row
-//! after row. Elements before the vertices are skipped, and so are lists; what follows the vertices is not
-//! read.
+//! after row. Elements before the vertices are skipped, and so are lists. What follows the vertices is passed over, to
+//! find a false count of vertices: rows of polygons would be taken as vertices, or vertices be left out.
 //!
 //! The reader is our own, because the crate ply-rs-bw (4.0) keeps a map of names for each vertex if the
 //! properties are not known at compile time: 870 bytes for a vertex of 28 bytes in the file.
@@ -28,6 +28,7 @@ struct Property {
     list: Option<AttributeType>,
 }
 
+#[derive(Clone)]
 struct Element {
     name: String,
     count: u64,
@@ -53,7 +54,7 @@ enum Encoding {
 }
 
 /// Parses the header of a file (or of its beginning), and returns its length. `None` for the layout if rows
-/// differ in length: in text, and with lists before the vertices or in them.
+/// differ in length (in text, and with lists before the vertices or in them), or if other rows follow the vertices.
 pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let (encoding, elements) = header(&mut cursor)?;
@@ -61,9 +62,8 @@ pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64
     let (before, vertex) = split(&elements)?;
     let between = before.iter().map(|e| Some((e.what(), e.count.saturating_mul(e.stride()?))));
     let between: Option<Vec<_>> = between.collect();
-    let (Some(between), Some(stride), true) =
-        (between, vertex.stride(), encoding != Encoding::Ascii)
-    else {
+    let alike = encoding != Encoding::Ascii && behind(&elements, before).next().is_none();
+    let (Some(between), Some(stride), true) = (between, vertex.stride(), alike) else {
         return Ok((None, header));
     };
     let mut attributes = Vec::new();
@@ -111,6 +111,32 @@ fn split(elements: &[Element]) -> Result<(&[Element], &Element), ReadError> {
     at.or_else(|| elements.iter().position(name))
         .and_then(|at| Some((elements.get(..at)?, elements.get(at)?)))
         .ok_or_else(|| ReadError::malformed("an element `vertex`", "none", Place::Unknown))
+}
+
+/// The elements behind the vertices that have rows, given those before them.
+fn behind<'e>(elements: &'e [Element], before: &[Element]) -> impl Iterator<Item = &'e Element> {
+    let rows = |element: &&Element| element.count > 0 && !element.properties.is_empty();
+    elements.iter().skip(before.len() + 1).filter(rows)
+}
+
+/// Checks that nothing but white space follows the vertices of a binary file whose rows have one length.
+///
+/// # Errors
+/// [`ReadError::Malformed`] if more follows, such as vertices that the header does not count.
+pub(super) fn check_end(content: &Content<'_>, rows: &Rows) -> Result<(), ReadError> {
+    let between: u64 = rows.between.iter().fold(0, |sum, (_, length)| sum.saturating_add(*length));
+    let end = rows.header.saturating_add(between).saturating_add(rows.bytes());
+    if rows.count == 0 || end >= content.length() {
+        return Ok(());
+    }
+    let mut text = Text::new(content.open(end, content.length())?);
+    text.skip_space()?;
+    if text.ahead(1)?.is_empty() {
+        return Ok(());
+    }
+    let found = format!("{} more bytes", content.length() - end);
+    let expected = format!("nothing after the {} rows of {}", rows.count, rows.what);
+    Err(ReadError::malformed(expected, found, Place::Byte(end)))
 }
 
 fn header(cursor: &mut Cursor<'_>) -> Result<(Encoding, Vec<Element>), ReadError> {
@@ -212,7 +238,7 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
     let (before, vertex) = split(&elements)?;
     let mut text = Text::new(content.open(length, content.length())?);
     for element in before {
-        let mut rows = ElementRows::new(element, encoding, &text)?;
+        let mut rows = ElementRows::new(element, encoding, &text, element.what())?;
         while rows.next(&mut text, &[], &mut [])? {}
     }
     let format = match encoding {
@@ -229,14 +255,52 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
             columns.push(Column::new(&property.name, 1, property.ty));
         }
     }
-    let rows = ElementRows::new(vertex, encoding, &text)?;
-    // Nothing may follow the vertices in a text if they are the last element.
-    let behind = elements.iter().skip(before.len() + 1);
-    let last = encoding == Encoding::Ascii
-        && vertex.count > 0
-        && behind.fold(0, |sum: u64, element| sum.saturating_add(element.count)) == 0;
-    let last = last.then_some(vertex.count);
-    Ok(Table { columns, about, rows: Box::new(Vertices { text, rows, taken, last }) })
+    let rows = ElementRows::new(vertex, encoding, &text, vertex.what())?;
+    // Some programs count no vertices and write the rest all the same.
+    let rest = (vertex.count > 0).then(|| Rest {
+        encoding,
+        elements: behind(&elements, before).cloned().collect(),
+        vertices: vertex.count,
+        after: format!("after the {} rows of {}", vertex.count, vertex.what()),
+    });
+    Ok(Table { columns, about, rows: Box::new(Vertices { text, rows, taken, rest }) })
+}
+
+/// What follows the vertices.
+struct Rest {
+    encoding: Encoding,
+    elements: Vec<Element>,
+    /// Number of vertices.
+    vertices: u64,
+    /// Where the elements are, in words.
+    after: String,
+}
+
+impl Rest {
+    /// Passes over it.
+    ///
+    /// # Errors
+    /// It is not what the header says.
+    fn check(&self, text: &mut Text<'_>) -> Result<(), ReadError> {
+        let mut all = vec![self.after.clone()];
+        for element in &self.elements {
+            let what = format!("{}, {}", element.what(), self.after);
+            let mut rows = ElementRows::new(element, self.encoding, text, what)?;
+            // By chance other bytes may have the lengths of polygons, but hardly their indices.
+            rows.below = (element.name == "face").then_some(self.vertices);
+            while rows.next(text, &[], &mut [])? {}
+            all.push(format!("the {} of {}", element.count, element.what()));
+        }
+        text.skip_space()?;
+        let place = text.place();
+        match text.token()? {
+            None => Ok(()),
+            Some(more) => {
+                let expected = format!("nothing {}", all.join(" and "));
+                Err(ReadError::malformed(expected, show(more), place))
+            }
+        }
+    }
 }
 
 struct Vertices<'a> {
@@ -244,8 +308,8 @@ struct Vertices<'a> {
     rows: ElementRows,
     /// For each property, the index of the column that takes its values.
     taken: Vec<Option<usize>>,
-    /// Number of vertices, if they end the file.
-    last: Option<u64>,
+    /// What follows them, if it is to be checked.
+    rest: Option<Rest>,
 }
 
 impl RowReader for Vertices<'_> {
@@ -253,17 +317,8 @@ impl RowReader for Vertices<'_> {
         if self.rows.next(&mut self.text, &self.taken, columns)? {
             return Ok(true);
         }
-        let Some(count) = self.last else { return Ok(false) };
-        self.text.skip_space()?;
-        let place = self.text.place();
-        match self.text.token()? {
-            None => Ok(false),
-            Some(more) => Err(ReadError::malformed(
-                format!("nothing after the {count} rows of {}", self.rows.what),
-                show(more),
-                place,
-            )),
-        }
+        self.rest.take().map_or(Ok(()), |rest| rest.check(&mut self.text))?;
+        Ok(false)
     }
 }
 
@@ -273,11 +328,19 @@ struct ElementRows {
     encoding: Encoding,
     what: String,
     left: u64,
+    /// Number of vertices, if lists of their indices are to be checked.
+    below: Option<u64>,
 }
 
 impl ElementRows {
-    fn new(element: &Element, encoding: Encoding, text: &Text<'_>) -> Result<Self, ReadError> {
-        let (properties, what) = (element.properties.clone(), element.what());
+    /// `what` names the element in messages.
+    fn new(
+        element: &Element,
+        encoding: Encoding,
+        text: &Text<'_>,
+        what: String,
+    ) -> Result<Self, ReadError> {
+        let properties = element.properties.clone();
         // A row without properties has no length, so its count could be anything.
         let left = if properties.is_empty() { 0 } else { element.count };
         if encoding == Encoding::Ascii {
@@ -289,7 +352,7 @@ impl ElementRows {
                 return Err(truncated(&what, text.at(), least, there));
             }
         }
-        Ok(Self { properties, encoding, what, left })
+        Ok(Self { properties, encoding, what, left, below: None })
     }
 
     /// Reads the next row; `taken` says which of `columns`, if any, takes a property's value. False after the
@@ -308,8 +371,10 @@ impl ElementRows {
             let column = taken.get(i).copied().flatten().and_then(|i| columns.get_mut(i));
             let data = column.map(|column| &mut column.data);
             match self.encoding {
-                Encoding::Ascii => property.read_text(text, &self.what, data)?,
-                encoding => property.read_binary(text, &self.what, encoding, data)?,
+                Encoding::Ascii => property.read_text(text, (&self.what, self.below), data)?,
+                encoding => {
+                    property.read_binary(text, (&self.what, self.below), encoding, data)?;
+                }
             }
         }
         Ok(true)
@@ -317,10 +382,22 @@ impl ElementRows {
 }
 
 impl Property {
+    /// Number of vertices below which the numbers of this list must be; `None` if they are no indices.
+    fn indices(&self, below: Option<u64>) -> Option<u64> {
+        let named = matches!(self.name.as_str(), "vertex_indices" | "vertex_index");
+        below.filter(|_| named && self.list.is_some())
+    }
+
+    /// The error for a list of indices that has another number, or none.
+    fn no_index(&self, what: &str, below: u64, found: String, place: Place) -> ReadError {
+        let expected = format!("indices below {below} in the list `{}` of {what}", self.name);
+        ReadError::malformed(expected, found, place)
+    }
+
     fn read_binary(
         &self,
         text: &mut Text<'_>,
-        what: &str,
+        (what, below): (&str, Option<u64>),
         encoding: Encoding,
         data: Option<&mut Data>,
     ) -> Result<(), ReadError> {
@@ -338,29 +415,56 @@ impl Property {
         let mut number = Data::for_type(length);
         number.push_bytes(length, raw, big_endian);
         let length = list_length(&number).ok_or_else(|| {
-            let expected = format!("the length of the list `{}`", self.name);
+            let expected = format!("the length of the list `{}` in {what}", self.name);
             ReadError::malformed(expected, show(raw), place)
         })?;
-        text.skip(length.saturating_mul(size), what)
+        let Some(below) = self.indices(below) else {
+            return text.skip(length.saturating_mul(size), what);
+        };
+        if length == 0 {
+            return Err(self.no_index(what, below, "none".into(), place));
+        }
+        for _ in 0..length {
+            let place = text.place();
+            let mut number = Data::for_type(self.ty);
+            number.push_bytes(self.ty, text.take(size, what)?, big_endian);
+            let index = number.f64(0).filter(|index| (0.0..below as f64).contains(index));
+            if index.is_none() {
+                let found = number.f64(0).unwrap_or(f64::NAN).to_string();
+                return Err(self.no_index(what, below, found, place));
+            }
+        }
+        Ok(())
     }
 
     fn read_text(
         &self,
         text: &mut Text<'_>,
-        what: &str,
+        (what, below): (&str, Option<u64>),
         data: Option<&mut Data>,
     ) -> Result<(), ReadError> {
         text.skip_space()?;
         let (place, at) = (text.place(), text.at());
         let token = text.token()?.ok_or_else(|| truncated(what, at, 1, 0))?;
         let bad = |expected: &str| {
-            ReadError::malformed(format!("{expected} of `{}`", self.name), show(token), place)
+            let expected = format!("{expected} of `{}` in {what}", self.name);
+            ReadError::malformed(expected, show(token), place)
         };
         if self.list.is_some() {
             let length = std::str::from_utf8(token).ok().and_then(|t| t.parse::<u64>().ok());
-            for _ in 0..length.ok_or_else(|| bad("the length of the list"))? {
-                if text.token()?.is_none() {
-                    return Err(truncated(what, text.at(), 1, 0));
+            let length = length.ok_or_else(|| bad("the length of the list"))?;
+            let below = self.indices(below);
+            if let (Some(below), 0) = (below, length) {
+                return Err(self.no_index(what, below, "none".into(), place));
+            }
+            for _ in 0..length {
+                let (place, at) = (text.place(), text.at());
+                let token = text.token()?.ok_or_else(|| truncated(what, at, 1, 0))?;
+                let index = parse_number(token);
+                if let Some(below) = below
+                    && !index.is_some_and(|index| (0.0..below as f64).contains(&index))
+                {
+                    return Err(self.no_index(what, below, show(token), place));
                 }
             }
             return Ok(());

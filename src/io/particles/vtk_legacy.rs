@@ -232,6 +232,32 @@ enum Of {
 /// Number of cells whose types are examined.
 const CELLS: usize = 1 << 10;
 
+/// Names of sections. At the end of a file, the beginning of one is what is left of a file that was cut off.
+const SECTIONS: [&str; 22] = [
+    "DATASET",
+    "POINTS",
+    "VERTICES",
+    "LINES",
+    "POLYGONS",
+    "TRIANGLE_STRIPS",
+    "CELLS",
+    "CELL_TYPES",
+    "POINT_DATA",
+    "CELL_DATA",
+    "METADATA",
+    "SCALARS",
+    "COLOR_SCALARS",
+    "LOOKUP_TABLE",
+    "VECTORS",
+    "NORMALS",
+    "TENSORS",
+    "TEXTURE_COORDINATES",
+    "FIELD",
+    "GLOBAL_IDS",
+    "PEDIGREE_IDS",
+    "EDGE_FLAGS",
+];
+
 /// Bytes after an array's first line in which its `LOOKUP_TABLE` line is searched.
 const LOOKUP: usize = 1 << 12;
 
@@ -359,7 +385,13 @@ impl<'a> Reader<'a> {
         };
         while let Some(line) = reader.keyword_line()? {
             if !reader.section(&line)? {
-                let place = reader.words(&line).place;
+                let words = reader.words(&line);
+                let (word, place) = (words.text(0, "a keyword")?.to_ascii_uppercase(), words.place);
+                let cut = SECTIONS.iter().any(|section| section.starts_with(&word));
+                if cut && reader.text.ahead(1)?.is_empty() {
+                    let at = reader.text.at();
+                    return Err(truncated("the name of a section of legacy VTK", at, 1, 0));
+                }
                 reader.warnings.push(format!(
                     "legacy VTK: unknown section {}{place}; it and all that follows are not read",
                     show(&line)

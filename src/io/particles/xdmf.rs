@@ -43,8 +43,15 @@ pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadE
 
 fn parse(text: &str) -> Result<Document<'_>, ReadError> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
-    Document::parse_with_options(text, options)
-        .map_err(|e| ReadError::malformed("XML", e.to_string(), Place::Line(e.pos().row.into())))
+    Document::parse_with_options(text, options).map_err(|e| {
+        let rest = text.trim_end();
+        let end = rest.rfind("</").and_then(|at| rest.get(at..)).unwrap_or_default();
+        if !end.eq_ignore_ascii_case("</xdmf>") {
+            let what = "the XML of an XDMF file, up to `</Xdmf>`,";
+            return ReadError::truncated(what, text.len(), 1, 0);
+        }
+        ReadError::malformed("XML", e.to_string(), Place::Line(e.pos().row.into()))
+    })
 }
 
 /// The grids of a frame.

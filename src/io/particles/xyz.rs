@@ -206,6 +206,7 @@ pub(super) fn rows<'a>(
         number,
         rows: 0,
         promised,
+        dump: about.format == Format::Lammps,
         commas,
         columns: Vec::new(),
         basis: basis.map(|basis| (basis, [None; 3])),
@@ -255,8 +256,17 @@ pub(super) fn rows_of_zones<'a>(
         columns.len() - 1
     });
     let zones = Some(Zones { column: zone, index: -1.0 });
-    let rows =
-        Lines { text, number, rows: 0, promised: None, commas, columns: taken, basis: None, zones };
+    let rows = Lines {
+        text,
+        number,
+        rows: 0,
+        promised: None,
+        dump: false,
+        commas,
+        columns: taken,
+        basis: None,
+        zones,
+    };
     Table { columns, about, rows: Box::new(rows) }
 }
 
@@ -402,6 +412,8 @@ struct Lines<'a> {
     /// Number of particles so far.
     rows: u64,
     promised: Option<u64>,
+    /// Whether the file is a dump of LAMMPS.
+    dump: bool,
     /// Whether commas separate fields.
     commas: bool,
     /// For each word of a line of text, the index of the column that stores it; `None`: it is skipped.
@@ -424,12 +436,32 @@ impl Lines<'_> {
     fn end(&self) -> Result<(), ReadError> {
         match self.promised {
             Some(expected) if expected != self.rows => {
-                let attribute = "position".into();
-                Err(ReadError::Length { attribute, expected, found: self.rows })
+                Err(cut(self.dump, (expected, self.rows), self.number))
             }
             _ => Ok(()),
         }
     }
+}
+
+/// The error for another number of rows than the file announces; `line` is the last line that was read.
+pub(super) fn cut(dump: bool, (expected, found): (u64, u64), line: u64) -> ReadError {
+    let expected_rows = match dump {
+        true => {
+            format!("{expected} rows in a dump of LAMMPS, as its `ITEM: NUMBER OF ATOMS` says")
+        }
+        false => format!("{expected} rows in an XYZ file, as the count above them says"),
+    };
+    let advice = match (found < expected, dump) {
+        (true, true) => {
+            "the dump was cut off: write it again; the whole steps before this one can be read"
+        }
+        (true, false) => {
+            "the file was cut off: write it again; the whole frames before this one can be read"
+        }
+        (false, _) => "the number or the rows are wrong: write the file again",
+    };
+    let place = Place::Line(line);
+    ReadError::Unclear { expected: expected_rows, found: found.to_string(), place, advice }
 }
 
 impl RowReader for Lines<'_> {
@@ -451,7 +483,17 @@ impl RowReader for Lines<'_> {
             if self.promised == Some(self.rows) && next() {
                 return Err(several_frames(self.number));
             }
-            row(line, self.number, self.commas, &self.columns, columns)?;
+            let read = row(line, self.number, self.commas, &self.columns, columns);
+            if let Err(error) = read {
+                // The last row may be cut off within.
+                let promised = self.promised.filter(|promised| *promised > self.rows);
+                self.text.skip_space()?;
+                return Err(match (self.text.ahead(1)?.is_empty(), promised) {
+                    (true, Some(promised)) => cut(self.dump, (promised, self.rows), self.number),
+                    (true, None) => error.in_last_row(),
+                    (false, _) => error,
+                });
+            }
             if let Some((basis, axes)) = &self.basis {
                 basis.apply(axes, columns);
             }
