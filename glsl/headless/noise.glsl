@@ -1,13 +1,27 @@
 // Value noise that leaves out what a pixel cannot show, for all shaders of pass `scene`. Needs nothing.
 
-float hash(ivec3 p) {
-    uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u ^ uint(p.z) * 0xcb1ab31fu;
+// Factors of a point's coordinates in its hash.
+const uvec3 HASH = uvec3(0x8da6b343u, 0xd8163841u, 0xcb1ab31fu);
+
+// In [0, 1), from the xor of the coordinates' products. Four at once, because compilers copy each call.
+vec4 hashed(uvec4 h) {
     h ^= h >> 15;
     h *= 0x2c1b3c6du;
     h ^= h >> 12;
     h *= 0x297a2d39u;
     h ^= h >> 15;
-    return float(h >> 8) / 16777216.0;
+    return vec4(h >> 8) / 16777216.0;
+}
+
+float hash(ivec3 p) {
+    uvec3 h = uvec3(p) * HASH;
+    return hashed(uvec4(h.x ^ h.y ^ h.z)).x;
+}
+
+// The xor of the products of x and y at the corners of a cell with this lowest corner: x varies fastest.
+uvec4 corners(ivec2 p) {
+    uvec2 x = uvec2(p.x, p.x + 1) * HASH.x, y = uvec2(p.y, p.y + 1) * HASH.y;
+    return x.xyxy ^ y.xxyy;
 }
 
 // Value noise in [-1, 1].
@@ -15,11 +29,10 @@ float noise(vec3 p) {
     ivec3 i = ivec3(floor(p));
     vec3 f = fract(p);
     f = f * f * (3.0 - 2.0 * f);
-    vec4 low = vec4(hash(i), hash(i + ivec3(1, 0, 0)), hash(i + ivec3(0, 1, 0)), hash(i + ivec3(1, 1, 0)));
-    ivec3 j = i + ivec3(0, 0, 1);
-    vec4 high = vec4(hash(j), hash(j + ivec3(1, 0, 0)), hash(j + ivec3(0, 1, 0)), hash(j + ivec3(1, 1, 0)));
-    vec4 z = mix(low, high, f.z);
-    vec2 y = mix(z.xy, z.zw, f.y);
+    uvec4 xy = corners(i.xy);
+    uvec2 z = uvec2(i.z, i.z + 1) * HASH.z;
+    vec4 level = mix(hashed(xy ^ z.x), hashed(xy ^ z.y), f.z);
+    vec2 y = mix(level.xy, level.zw, f.y);
     return 2.0 * mix(y.x, y.y, f.x) - 1.0;
 }
 
@@ -28,9 +41,8 @@ float noise(vec2 p, int seed) {
     ivec2 i = ivec2(floor(p));
     vec2 f = fract(p);
     f = f * f * (3.0 - 2.0 * f);
-    vec2 low = vec2(hash(ivec3(i, seed)), hash(ivec3(i + ivec2(1, 0), seed)));
-    vec2 high = vec2(hash(ivec3(i + ivec2(0, 1), seed)), hash(ivec3(i + ivec2(1, 1), seed)));
-    vec2 y = mix(low, high, f.y);
+    vec4 level = hashed(corners(i) ^ uint(seed) * HASH.z);
+    vec2 y = mix(level.xy, level.zw, f.y);
     return 2.0 * mix(y.x, y.y, f.x) - 1.0;
 }
 
