@@ -153,24 +153,24 @@ impl Grid {
     /// `rank` neighbours lie within two widths of a grid cell.
     fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
         let [x, y, z] = self.cell_of(p);
-        let mut best = [f32::INFINITY; 3];
         for reach in 1..=2_i64 {
-            for dx in -reach..=reach {
-                for dy in -reach..=reach {
-                    for dz in -reach..=reach {
-                        // The second round searches only the shell around the first.
-                        if reach == 2 && dx.abs().max(dy.abs()).max(dz.abs()) < 2 {
-                            continue;
-                        }
-                        let shift = |a: i64, b: i64| a.wrapping_add(b);
-                        let key = self.key([shift(x, dx), shift(y, dy), shift(z, dz)]);
-                        for (found, q) in self.row(key) {
-                            if *found != key {
-                                break;
-                            }
-                            insert(&mut best, squared(p, *q));
-                        }
-                    }
+            // The second round begins anew, because its rows of cells contain those of the first.
+            let mut best = [f32::INFINITY; 3];
+            for (dx, dy) in (-reach..=reach).flat_map(|dx| (-reach..=reach).map(move |dy| (dx, dy)))
+            {
+                let key = |dz: i64| {
+                    self.key([x.wrapping_add(dx), y.wrapping_add(dy), z.wrapping_add(dz)])
+                };
+                let mut search = |first: u64, last: u64| {
+                    let row = self.row(first).iter().take_while(|(found, _)| *found <= last);
+                    row.for_each(|(_, q)| insert(&mut best, squared(p, *q)));
+                };
+                // The keys of a row along z follow each other, except where they wrap around.
+                let (first, last) = (key(-reach), key(reach));
+                if last.wrapping_sub(first) == 2 * reach as u64 {
+                    search(first, last);
+                } else {
+                    (-reach..=reach).for_each(|dz| search(key(dz), key(dz)));
                 }
             }
             // All points within `reach` cell widths lie in the cells searched so far.
