@@ -1252,9 +1252,9 @@ pub struct Settings {
     pub light: Light,
     /// How many layers the composite contains, for debug views. Default: all.
     #[cfg(feature = "diagnostics")]
-    pub ladder: DebugView,
+    pub debug_view: DebugView,
     #[cfg(not(feature = "diagnostics"))]
-    pub(crate) ladder: DebugView,
+    pub(crate) debug_view: DebugView,
 }
 
 /// Default settings, for a particle spacing of 0.05 scene units and scene units of one metre, under the default
@@ -1272,7 +1272,7 @@ impl Default for Settings {
             shadow: ShadowFilter::default(),
             noise: SurfaceNoiseSettings::default(),
             light: Light::default(),
-            ladder: DebugView::default(),
+            debug_view: DebugView::default(),
         }
     }
 }

@@ -377,7 +377,7 @@ impl FrameUniforms {
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
-            target: [target_at[0], target_at[1], f32::from(frame.settings.ladder as u8), 0.0],
+            target: [target_at[0], target_at[1], f32::from(frame.settings.debug_view as u8), 0.0],
             particle: [radius, water.spacing, axis, amplitude],
             density: densities(frame.settings, config),
             smoothing: [

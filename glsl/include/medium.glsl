@@ -1,7 +1,6 @@
 // Light on its way through water (thesis, Eq. 3.5 to 3.7). Needs frame.glsl.
 
-// Rungs (steps) of the ladder, a debug view that builds the picture layer by layer from the back. Layers above the
-// selected rung are omitted.
+// Debug views. Each contains all layers from the farthest up to the one that it is named after; WHOLE contains all.
 const float BACK_WATER = 1.0;
 const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;

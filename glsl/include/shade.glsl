@@ -334,9 +334,9 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     return sheet;
 }
 
-// Returns the sheet (layer of water). Its reflection and highlight are set to 0, unless the ladder (a debug view that
-// adds layer after layer) is at its last rung.
-Sheet on_ladder(Sheet sheet) {
+// Returns the sheet (layer of water). Its reflection and highlight are set to 0, unless the debug view contains
+// all layers.
+Sheet in_view(Sheet sheet) {
     float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
     sheet.mirror *= whole;
     sheet.shine *= whole;
@@ -786,8 +786,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         sheet.path = way.path;
         open = false;
     }
-    sheet = on_ladder(sheet);
-    back = on_ladder(back);
+    sheet = in_view(sheet);
+    back = in_view(back);
     face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;
     face.light = front < EMPTY ? sheet.mirror * sheet.mirrored + sheet.shine : vec3(0.0);
     if (FOAM + WHITEWATER == 0u) {

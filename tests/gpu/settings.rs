@@ -177,10 +177,10 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("light.ambient", |s| s.light.ambient = [1.0; 3]),
         ("light.irradiance", |s| s.light.irradiance = [PI; 3]),
         ("light.shade", |s| s.light.shade = [0.1; 3]),
-        ("ladder 0", |s| s.ladder = DebugView::Background),
-        ("ladder 1", |s| s.ladder = DebugView::BackWater),
-        ("ladder 2", |s| s.ladder = DebugView::SurfaceFoam),
-        ("ladder 3", |s| s.ladder = DebugView::FrontWater),
+        ("debug view 0", |s| s.debug_view = DebugView::Background),
+        ("debug view 1", |s| s.debug_view = DebugView::BackWater),
+        ("debug view 2", |s| s.debug_view = DebugView::SurfaceFoam),
+        ("debug view 3", |s| s.debug_view = DebugView::FrontWater),
         ("fresnel", |s| {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
         }),

@@ -641,7 +641,7 @@ fn the_shape_of_a_splash_lights_its_foam() {
 /// its colour, water before it, then reflected light. Each partial picture is compared with its
 /// layers.
 #[test]
-fn the_ladder_adds_a_layer_a_rung() {
+fn each_debug_view_adds_a_layer() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let config = foaming(size).with(|it| {
@@ -671,8 +671,8 @@ fn the_ladder_adds_a_layer_a_rung() {
             DebugView::FrontWater,
             DebugView::Whole,
         ]
-        .map(|rung| {
-            case.shot.settings.ladder = rung;
+        .map(|view| {
+            case.shot.settings.debug_view = view;
             case.draw(&mut rig)
         });
         let found = of(&whole);

@@ -344,7 +344,7 @@ pub struct DrawArgs {
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
     ///
-    /// 'ladder' adds one picture for each step of the composite: up to and including background, back_water,
+    /// 'debug_view' adds four composites of only the farther layers: up to and including background, back_water,
     /// surface_foam and front_water. motion.X and motion.Y are the motion vectors since the previous frame, in
     /// pixels, x to the right, y down. They are 0 in the first frame of a sequence. Where the scene is visible, they
     /// hold only the camera's motion.

@@ -40,17 +40,17 @@ const GROUPS: [&str; 30] = [
     "contact.amount",
     "scene",
     MOTION,
-    LADDER,
+    DEBUG_VIEW,
 ];
 
 /// Layer of motion vectors in pixels: each leads from where the content of a pixel was in the previous frame to the
 /// pixel.
 pub const MOTION: &str = "motion";
 
-/// Cumulative composites, three channels for each layer.
-pub const LADDER: &str = "ladder";
+/// Debug views: composites of only the farther layers, three channels each.
+pub const DEBUG_VIEW: &str = "debug_view";
 
-const RUNGS: [(&str, DebugView); 4] = [
+const VIEWS: [(&str, DebugView); 4] = [
     ("background", DebugView::Background),
     ("back_water", DebugView::BackWater),
     ("surface_foam", DebugView::SurfaceFoam),
@@ -60,14 +60,15 @@ const RUNGS: [(&str, DebugView); 4] = [
 /// The new name of a renamed layer.
 fn renamed(name: &str) -> Option<String> {
     let of = |old: &str, new: &str| name.strip_prefix(old).map(|rest| format!("{new}{rest}"));
-    of("water.foam", "surface_foam").or_else(|| of("foam", "whitewater"))
+    of("water.foam", "surface_foam")
+        .or_else(|| of("foam", "whitewater"))
+        .or_else(|| of("ladder", DEBUG_VIEW))
 }
 
-/// Parses `--layers`. `all` does not include the ladder, because for each of its rungs (cumulative composites) the
-/// frame has to be drawn again.
+/// Parses `--layers`. `all` does not include the debug views, because the frame has to be drawn again for each.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
     match text {
-        "all" => return Ok(GROUPS.into_iter().filter(|name| *name != LADDER).collect()),
+        "all" => return Ok(GROUPS.into_iter().filter(|name| *name != DEBUG_VIEW).collect()),
         "none" => return Ok(Vec::new()),
         _ => {}
     }
@@ -255,24 +256,23 @@ pub fn collect(
     Ok(layers)
 }
 
-/// Draws the frame again for each rung of the ladder, composited only up to that rung, and adds the pictures as
-/// layers.
-pub fn ladder(
+/// Draws the frame again for each debug view, and adds the pictures as layers.
+pub fn debug_views(
     headless: &mut Headless,
     camera: &Camera,
     settings: &Settings,
     layers: &mut Layers,
 ) -> Outcome<()> {
-    for (name, ladder) in RUNGS {
+    for (name, view) in VIEWS {
         headless.render(
             camera,
-            &settings.clone().with(|it| it.ladder = ladder),
+            &settings.clone().with(|it| it.debug_view = view),
             &Background::Scene,
         )?;
         let color = headless.color()?;
         for (c, axis) in ["R", "G", "B"].into_iter().enumerate() {
             let picture = merged(&color.map(|v| v[c]), layers.width, Merge::Mean);
-            let name = format!("{LADDER}.{name}.{axis}");
+            let name = format!("{DEBUG_VIEW}.{name}.{axis}");
             layers.push(&name, picture.width, picture.height, picture.data)?;
         }
     }
@@ -339,8 +339,10 @@ mod tests {
     #[test]
     fn layer_names_are_understood() {
         let all = wanted("all").unwrap();
-        assert!(all.len() == GROUPS.len() - 1 && !all.contains(&LADDER));
-        assert_eq!(wanted("ladder").unwrap(), [LADDER]);
+        assert!(all.len() == GROUPS.len() - 1 && !all.contains(&DEBUG_VIEW));
+        assert_eq!(wanted("debug_view").unwrap(), [DEBUG_VIEW]);
+        let old = wanted("ladder").unwrap_err().message;
+        assert!(old.contains("ladder was renamed: use debug_view"), "{old}");
         assert_eq!(wanted("water.depth.Z, scene").unwrap(), ["water.depth", "scene"]);
         assert_eq!(wanted("motion").unwrap(), [MOTION]);
         assert!(wanted("water").is_err() && wanted("").is_err());

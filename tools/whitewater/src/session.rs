@@ -543,8 +543,8 @@ impl<'a> Session<'a> {
             if self.look.matte {
                 layers::matte(headless, &camera, &liquids, &mut layers)?;
             }
-            if self.wanted.contains(&layers::LADDER) {
-                layers::ladder(headless, &camera, &self.look.settings, &mut layers)?;
+            if self.wanted.contains(&layers::DEBUG_VIEW) {
+                layers::debug_views(headless, &camera, &self.look.settings, &mut layers)?;
             }
             Outcome::Ok(layers)
         })?;

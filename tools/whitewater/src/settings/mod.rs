@@ -148,7 +148,7 @@ impl SettingsFile {
     /// The others, such as those that configure passes, keep the value of `self`, or that of its preset where `self`
     /// has none.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
-        // Two fields are not keys: `up`, because the program's scenes are y-up, and `ladder`, which follows from the
+        // Two fields are not keys: `up`, because the program's scenes are y-up, and `debug_view`, which follows from the
         // layers that are written.
         let Settings {
             water,

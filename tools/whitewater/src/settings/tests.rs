@@ -321,7 +321,8 @@ fn no_field_is_forgotten() {
     let generated = whitewater::GeneratorSettings::new(1.0, [limits; 3], 1.0);
     same(&generated, generate::GenerateTable::FIELDS);
     // Structs that have no table macro.
-    let parts = "up water surface_foam spray whitewater bubbles shore shadow noise light ladder";
+    let parts =
+        "up water surface_foam spray whitewater bubbles shore shadow noise light debug_view";
     let words = |names: &'static str| names.split(' ').collect::<Vec<_>>();
     same(&all, &words(parts));
     let foams = "scale threshold foam_lifetime air rest_density seed";

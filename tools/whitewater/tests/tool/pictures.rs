@@ -206,25 +206,25 @@ fn single_pngs_are_photographs() {
     assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
 }
 
-/// Each rung of the ladder differs from the one below, within the water only. Without foam all water is in front of it.
+/// Each debug view adds its layer, within the water only. Without foam all water is in front of it.
 #[test]
-fn the_ladder_has_its_rungs() {
+fn each_debug_view_adds_its_layer() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
-    // Without walls: objects in the water are lit through it from the second rung on.
-    let look = "--shadows none --layers ladder,scene";
+    // Without walls: objects in the water are lit through it from the second view on.
+    let look = "--shadows none --layers debug_view,scene";
     let command = format!("render a.ply -o a.exr {GROUND} {FRONT} {look}");
     folder.run(&command).ok();
     let exr = folder.picture("a.exr");
     let at = |name: &str, x: usize, y: usize| {
         ["R", "G", "B"].map(|c| exr.channel(&format!("{name}{c}")).unwrap()[y * 96 + x])
     };
-    let rungs =
-        ["background", "back_water", "surface_foam", "front_water"].map(|r| format!("ladder.{r}."));
-    for rung in &rungs {
-        assert_eq!(at(rung, 48, 60), at("", 48, 60), "{rung}: the ground before the water");
+    let views = ["background", "back_water", "surface_foam", "front_water"]
+        .map(|name| format!("debug_view.{name}."));
+    for view in &views {
+        assert_eq!(at(view, 48, 60), at("", 48, 60), "{view}: the ground before the water");
     }
-    let [background, back, foam, front] = rungs.each_ref().map(|rung| at(rung, 48, 32));
+    let [background, back, foam, front] = views.each_ref().map(|view| at(view, 48, 32));
     assert_eq!((background, background), (back, foam));
     assert!(front[0] < 0.9 * background[0], "red is absorbed: {front:?}, {background:?}");
     let whole = at("", 48, 32);
