@@ -215,6 +215,10 @@ fn units_of_time_in_names() {
     let folder = Files::new("unit twice", &["w_1000us.csv", "w_1ms.csv"]);
     let error = expand(&[folder.input("*.csv")], None).unwrap_err().to_string();
     assert!(error.contains("both frame 0"), "{error}");
+    // A number without a unit could be anywhere among units that differ.
+    let folder = Files::new("unit none", &["w_900us.csv", "w_1ms.csv", "w_2.csv"]);
+    let error = expand(&[folder.input("*.csv")], None).unwrap_err().to_string();
+    assert!(error.contains("w_2.csv: expected a unit of time behind the number"), "{error}");
     for (text, length) in [
         ("ms_fluid", Some(2)),
         ("s", Some(1)),

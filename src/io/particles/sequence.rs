@@ -233,7 +233,7 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
     // Files with the same time in a list are parts of one frame, written by several processes or for several
     // blocks.
     let listed = named.iter().all(|named| named.listed);
-    let mut all = number(named);
+    let mut all = number(named)?;
     all.sort_by_key(|f| f.number);
     let mut found: Vec<Frame> = Vec::new();
     for b in all {

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 use std::path::PathBuf;
 
-use super::Frame;
 use super::names::{Number, Part, compare, is_rank, parts, stem};
+use super::{Frame, SequenceError};
 
 /// A file. `levels` holds the name of the file without extension, the name of its folder, of the folder above,
 /// and so on, each split into numbers and text.
@@ -127,17 +127,20 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
 }
 
 /// Assigns numbers to files; files without a number are counted in their order.
-pub(super) fn number(mut named: Vec<Named>) -> Vec<Frame> {
+///
+/// # Errors
+/// Some numbers have units of time, which differ, and others have none.
+pub(super) fn number(mut named: Vec<Named>) -> Result<Vec<Frame>, SequenceError> {
     if named.iter().all(|named| named.said.is_some()) {
         let frame = |named: Named| {
             let (number, time) = named.said.unwrap_or_default();
             Frame::new(number, time, named.path)
         };
-        return named.into_iter().map(frame).collect();
+        return Ok(named.into_iter().map(frame).collect());
     }
     let Some(numbers) = telling(&named) else {
         let frame = |(i, named): (usize, Named)| Frame::new(i as u64, None, named.path);
-        return named.into_iter().enumerate().map(frame).collect();
+        return Ok(named.into_iter().enumerate().map(frame).collect());
     };
     let units: Vec<_> = numbers.iter().filter_map(|number| number.unit).collect();
     let differ = units.windows(2).any(|two| two.first() != two.last());
@@ -146,11 +149,20 @@ pub(super) fn number(mut named: Vec<Named>) -> Vec<Frame> {
     let times = times.filter(|_| !units.is_empty());
     let seconds = |i: usize| times.as_ref().and_then(|times| times.get(i)).copied();
     let whole: Option<Vec<u64>> = numbers.iter().map(|number| number.whole).collect();
-    if let Some(whole) = whole.filter(|_| !differ || times.is_none()) {
+    let without = numbers.iter().position(|number| number.seconds().is_none());
+    if let Some(file) = without.filter(|_| differ).and_then(|i| named.get(i)) {
+        return Err(SequenceError::Pattern {
+            pattern: file.path.display().to_string(),
+            expected: "a unit of time behind the number (ns, us, ms, s, min or h), as other files of the pattern have; \
+                       rename it, or narrow the pattern"
+                .into(),
+        });
+    }
+    if let Some(whole) = whole.filter(|_| !differ) {
         let frame = |(i, (named, number)): (usize, (Named, u64))| {
             Frame::new(number, seconds(i), named.path)
         };
-        return named.into_iter().zip(whole).enumerate().map(frame).collect();
+        return Ok(named.into_iter().zip(whole).enumerate().map(frame).collect());
     }
     // Programs write times either with a fixed number of decimals or without zeros at the end. In names that do
     // neither, `1.10` is therefore the pair of integers 1 and 10, which follows `1.9`.
@@ -188,5 +200,5 @@ pub(super) fn number(mut named: Vec<Named>) -> Vec<Frame> {
             frames.push(Frame::new(number, time, std::mem::take(&mut named.path)));
         }
     }
-    frames
+    Ok(frames)
 }
