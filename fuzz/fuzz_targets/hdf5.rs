@@ -5,7 +5,23 @@
 use libfuzzer_sys::fuzz_target;
 use whitewater::io::particles::{Extension, read_bytes};
 
+/// The same file with its own length where the header states it; otherwise most files that the fuzzer shortens would be
+/// refused at once.
+fn whole(mut bytes: Vec<u8>) -> Vec<u8> {
+    let length = (bytes.len() as u64).to_le_bytes();
+    let at = match bytes.get(8) {
+        Some(0) => 40,
+        Some(1) => 44,
+        _ => 28,
+    };
+    if let Some(end) = bytes.get_mut(at..at + 8) {
+        end.copy_from_slice(&length);
+    }
+    bytes
+}
+
 fuzz_target!(|data: &[u8]| {
     let _ = read_bytes(data, Extension::Unknown);
+    let _ = read_bytes(&whole(data.to_vec()), Extension::Unknown);
     let _ = read_bytes(&[&b"\x89HDF\r\n\x1a\n\0"[..], data].concat(), Extension::Unknown);
 });
