@@ -73,6 +73,10 @@ fn within_folder(input: &str, depth: usize) -> Outcome<String> {
             others.push(name);
         }
     }
+    // Beside particle files they hold other things, such as settings.
+    if names.is_empty() && lists.is_empty() {
+        (names, others) = others.into_iter().partition(|name| is_matlab(name));
+    }
     names.sort();
     let pieces = pieces(path, &names);
     names.retain(|name| !pieces.contains(name));
@@ -206,7 +210,7 @@ fn pieces(folder: &Path, names: &[String]) -> HashSet<String> {
 fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     let mut timed: BTreeMap<String, Vec<&String>> = BTreeMap::new();
     for name in names {
-        let pattern = time(name).map(|time| {
+        let pattern = time_with_unit(name).or_else(|| time(name)).map(|time| {
             let mut pattern = name.clone();
             pattern.replace_range(time, "*");
             pattern
@@ -217,7 +221,8 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     let mut done = HashSet::new();
     for (pattern, names) in timed {
         let plain: HashSet<String> = names.iter().map(|name| self::pattern(name)).collect();
-        if 2 * plain.len() > names.len() && names.len() > 1 {
+        let units = names.iter().any(|name| time_with_unit(name).is_some());
+        if (units || 2 * plain.len() > names.len()) && plain.len() > 1 {
             done.extend(names.iter().copied());
             *patterns.entry(pattern).or_default() += names.len();
         }
@@ -260,9 +265,27 @@ fn time(name: &str) -> Option<Range<usize>> {
     found
 }
 
+/// Byte range of the last number with a unit of time right behind it, the unit included.
+fn time_with_unit(name: &str) -> Option<Range<usize>> {
+    let stem = name.rfind('.').unwrap_or(name.len());
+    let digit = |c: char| c.is_ascii_digit();
+    let ends = name[..stem].char_indices().filter(|(_, c)| digit(*c)).map(|(at, _)| at + 1);
+    let with_unit = |at: usize| Some((at, at + sequence::time_unit(&name[at..])?));
+    let (number, end) = ends.filter_map(with_unit).next_back()?;
+    let number = &name[..number];
+    // The number may have a point or an exponent.
+    let start = number.rfind(|c: char| !digit(c) && !matches!(c, '.' | 'e' | '+' | '-'));
+    let start = start.map_or(0, |at| at + number[at..].chars().next().map_or(1, char::len_utf8));
+    let leading = number[start..].find(digit)?;
+    Some(start + leading..end)
+}
+
 /// Pattern of a file that exists in each of several numbered folders: `DIR/*/cloud.vtp`.
 fn in_folders(folder: &str, folders: &[String]) -> Option<String> {
-    let numbered = folders.iter().filter(|name| name.ends_with(|c: char| c.is_ascii_digit()));
+    let numbered = folders.iter().filter(|name| {
+        let behind = name.rfind(|c: char| c.is_ascii_digit()).map(|at| &name[at + 1..]);
+        behind.is_some_and(|text| text.is_empty() || sequence::time_unit(text) == Some(text.len()))
+    });
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     let mut total = 0;
     for name in numbered {
@@ -282,6 +305,11 @@ fn in_folders(folder: &str, folders: &[String]) -> Option<String> {
         several => arrays::positions_of(several),
     };
     one.map(|file| format!("{folder}/*/{file}"))
+}
+
+/// MATLAB's files of version 7.3 are HDF5; of the others the reader says what to do.
+fn is_matlab(name: &str) -> bool {
+    name.to_lowercase().ends_with(".mat")
 }
 
 fn readable(name: &str) -> bool {
@@ -431,6 +459,39 @@ mod tests {
         ] {
             assert_eq!(time(name), expected, "{name}");
         }
+        for (name, expected) in [
+            ("w_900us.csv", Some(2..7)),
+            ("w_1.5s.csv.gz", Some(2..6)),
+            ("w_2.0e-04s_a.csv", Some(2..10)),
+            ("w_15\u{b5}s.csv", Some(2..7)),
+            ("frame-5min.csv", Some(6..10)),
+            ("10m_run.csv", None),
+            ("5h3.csv", None),
+        ] {
+            assert_eq!(time_with_unit(name), expected, "{name}");
+        }
+        // Times in several units, as names of files and of folders.
+        std::fs::create_dir_all(at("units")).unwrap();
+        for time in ["0", "900us", "950us", "1ms", "2ms", "1.5s"] {
+            write(&format!("units/w_{time}.csv"));
+            std::fs::create_dir_all(at(&format!("inunits/{time}"))).unwrap();
+            write(&format!("inunits/{time}/cloud.vtp"));
+        }
+        assert!(in_folder(&at("units")).unwrap().ends_with("units/w_*.csv"));
+        assert!(in_folder(&at("inunits")).unwrap().ends_with("inunits/*/cloud.vtp"));
+        let frames = crate::frames::files(&[at("units")], false).unwrap();
+        let times: Vec<_> = frames.iter().map(|frame| frame.time.unwrap()).collect();
+        assert_eq!(times, [0.0, 9.0e-4, 9.5e-4, 1.0e-3, 2.0e-3, 1.5]);
+        // Files of MATLAB are particles, except beside other files.
+        std::fs::create_dir_all(at("matlab")).unwrap();
+        write("matlab/w_1.mat");
+        write("matlab/w_2.MAT");
+        assert!(in_folder(&at("matlab")).unwrap_err().message.contains("several sequences"));
+        std::fs::rename(at("matlab/w_2.MAT"), at("matlab/w_2.mat")).unwrap();
+        write("matlab/log.out");
+        assert!(in_folder(&at("matlab")).unwrap().ends_with("matlab/w_*.mat"));
+        write("matlab/w_1.vtu");
+        assert!(in_folder(&at("matlab")).unwrap().ends_with("matlab/w_*.vtu"));
         // A cloud of OpenFOAM, and the case that contains it.
         std::fs::create_dir_all(at("case/0.1/lagrangian/cloud")).unwrap();
         let header = "FoamFile\n{\n    class Cloud;\n}\n";
