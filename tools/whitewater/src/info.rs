@@ -38,8 +38,9 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
                 if let Some(Ok(())) = unsure {
                     radii::take(&mut particles, radii::UNSURE, &frame.path)?;
                 }
-                summary.add(frame.number, &particles);
                 let value = describe(&path, frame, &particles);
+                let spacing = value["spacing"].as_f64().map(|spacing| spacing as f32);
+                summary.add(frame.number, &particles, spacing);
                 if args.json {
                     all.push(value);
                 } else {
@@ -159,19 +160,26 @@ fn up(particles: &Particles) -> Value {
     }
 }
 
-/// A message if the water's extent is implausible in metres.
+/// The unit of length that the file names, or a message if the water's extent is implausible in metres.
 fn unit(particles: &Particles) -> Option<String> {
+    let named = placing::named_hint(particles).or_else(|| hint(particles));
+    named.or_else(|| placing::named_metres(particles))
+}
+
+fn hint(particles: &Particles) -> Option<String> {
     let extent = Bounds::of_bulk(&particles.positions)?.size().max_element();
-    let named = placing::named_hint(particles);
-    named.or_else(|| placing::hint(extent, placing::fastest(particles)))
+    placing::hint(extent, placing::fastest(particles))
 }
 
 /// The meaning of an attribute; `None` if it is ignored.
 fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
     let of_name = |(_, names): &&(Meaning, Vec<String>)| names.iter().any(|n| n == name);
     let (meaning, _) = particles.meanings.iter().find(of_name)?;
-    // Values that are not whole numbers are dropped.
+    // Values that are not whole numbers are dropped, and those that only some of several joined files have.
     let there = match meaning {
+        Meaning::Velocity => particles.velocities.is_some(),
+        Meaning::Density => particles.densities.is_some(),
+        Meaning::Lifetime => particles.lifetimes.is_some(),
         Meaning::Id => particles.ids.is_some(),
         Meaning::Kind => particles.kinds.is_some(),
         _ => true,
@@ -190,10 +198,6 @@ fn beside(particles: &Particles, name: &str) -> Option<String> {
         && !particles.attributes.iter().any(|a| radii::is_radius(&a.name));
     if renamed && radii::radii(particles).is_some() {
         return Some("radius".into());
-    }
-    let times = ["time", "timestep", "time value", "step", "frame"];
-    if particles.time.is_some() && times.iter().any(|time| particles::same_name(time, name)) {
-        return Some("time".into());
     }
     let phases = extras::phases(particles);
     phases

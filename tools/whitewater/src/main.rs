@@ -25,6 +25,7 @@ mod info;
 mod layers;
 mod looks;
 mod masonry;
+mod odd;
 mod out;
 mod output;
 mod pattern;
@@ -48,6 +49,7 @@ mod surface_foam;
 #[cfg(test)]
 mod testing;
 mod timings;
+mod tracks;
 mod turntable;
 mod upright;
 mod whitewater_source;

@@ -141,24 +141,49 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
-/// The unit that stands in brackets after the names of the position attributes, if it is millimetres, centimetres or
-/// kilometres.
-pub fn named(particles: &Particles) -> Option<Unit> {
+/// Units of length in names of files: the name, metres, and the flag that converts them.
+const LENGTHS: [(&str, f32, &str); 11] = [
+    ("m", 1.0, ""),
+    ("mm", 1.0e-3, "--unit mm"),
+    ("cm", 1.0e-2, "--unit cm"),
+    ("km", 1.0e3, "--unit km"),
+    ("dm", 0.1, "--scale 0.1"),
+    ("um", 1.0e-6, "--scale 1e-6"),
+    ("\u{b5}m", 1.0e-6, "--scale 1e-6"),
+    ("\u{3bc}m", 1.0e-6, "--scale 1e-6"),
+    ("nm", 1.0e-9, "--scale 1e-9"),
+    ("in", 0.0254, "--scale 0.0254"),
+    ("ft", 0.3048, "--scale 0.3048"),
+];
+
+/// The unit of length that stands in brackets after the names of the position attributes, or in a row of units below
+/// them, with the first of the names: an entry of [`LENGTHS`].
+fn named(particles: &Particles) -> Option<(&'static str, f32, &'static str, &str)> {
     let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
     let unit = |name: &String| {
         let (_, unit) = name.rsplit_once(['[', '('])?;
         let unit = unit.trim_end().trim_end_matches([']', ')']).trim();
-        [Unit::Mm, Unit::Cm, Unit::Km].into_iter().find(|known| known.name() == unit)
+        LENGTHS.iter().find(|(known, ..)| *known == unit)
     };
-    let units: Option<Vec<Unit>> = names.iter().map(unit).collect();
-    units?.first().copied()
+    let units: Option<Vec<_>> = names.iter().map(unit).collect();
+    let (unit, metres, flag) = **units?.first()?;
+    Some((unit, metres, flag, names.first()?))
 }
 
-/// A message about that unit.
+/// A message about that unit, if it is not the metre.
 pub fn named_hint(particles: &Particles) -> Option<String> {
-    let unit = named(particles)?.name();
+    let (unit, _, flag, name) = named(particles).filter(|(_, metres, ..)| *metres != 1.0)?;
     Some(format!(
-        "the names of the positions say {unit}, but they are read as metres; --unit {unit} converts them"
+        "the names of the positions say {unit}, but they are read as metres; {flag} converts them (the name is `{name}`; \
+         a row of units below the names counts)"
+    ))
+}
+
+/// A message that this unit is the metre.
+pub fn named_metres(particles: &Particles) -> Option<String> {
+    let (.., name) = named(particles).filter(|(_, metres, ..)| *metres == 1.0)?;
+    Some(format!(
+        "m, as the names of the positions say (`{name}`; a row of units below the names counts)"
     ))
 }
 
@@ -253,6 +278,32 @@ mod tests {
                     up.name()
                 );
             }
+        }
+    }
+
+    #[test]
+    fn units_in_names_are_told() {
+        let of = |name: &str| {
+            let mut particles = Particles::from_positions(vec![[0.0; 3]]);
+            particles.meanings = vec![(Meaning::Position, vec![name.into(); 3])];
+            particles
+        };
+        for (name, flag) in [
+            (
+                "x [mm]",
+                "say mm, but they are read as metres; --unit mm converts them (the name is `x [mm]`",
+            ),
+            ("Pos.x (cm)", "--unit cm converts"),
+            ("x [in]", "--scale 0.0254 converts"),
+            ("x [\u{b5}m]", "--scale 1e-6 converts"),
+        ] {
+            let told = named_hint(&of(name)).unwrap();
+            assert!(told.contains(flag), "{told}");
+            assert_eq!(named_metres(&of(name)), None);
+        }
+        assert!(named_metres(&of("x [m]")).unwrap().starts_with("m, as"));
+        for name in ["x [m]", "x", "x [furlong]"] {
+            assert_eq!(named_hint(&of(name)), None, "{name}");
         }
     }
 

@@ -8,9 +8,11 @@ use whitewater::io::particles::{self, Particles};
 use crate::bounds::{self, Bounds};
 use crate::failure::Outcome;
 use crate::fluids;
+use crate::odd::{self, Size};
 use crate::placing;
 use crate::reader::{Has, Reader};
 use crate::surface_foam;
+use crate::tracks::{self, Motion};
 
 /// Number of probed frames. Water that flows in and comes to rest differs from frame to frame, so two or three would
 /// not be enough.
@@ -46,12 +48,17 @@ fn by_motion(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
     let apart = |pair: &[Frame]| {
         let [a, b] = pair else { return None };
         let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
-        let seconds = surface_foam::seconds(&first, &second)?;
-        Some((b.number - a.number) as f32 / seconds)
+        let motion = tracks::motion(&first, &second)?;
+        let seconds = match motion {
+            Motion::Seconds(seconds) | Motion::Turned(_, seconds) => Some(seconds),
+            Motion::Rows => None,
+        };
+        reader.doubt(motion);
+        Some(seconds.map(|seconds| (b.number - a.number) as f32 / seconds))
     };
     let middle = all.len().saturating_sub(1) / 2;
     let pairs = all.windows(2).skip(middle).chain(all.windows(2).take(middle));
-    pairs.take(PAIRS).find_map(apart)
+    pairs.take(PAIRS).find_map(apart)?
 }
 
 /// The median step between frame numbers.
@@ -89,8 +96,12 @@ impl Probes {
                 (None, None) => {}
             }
         }
-        let own = reader.seen;
+        let mut own = reader.seen;
         let fps = rate(reader, all, own).map(|(rate, _)| rate);
+        if reader.drops_ids() {
+            own.ids = false;
+            frames.iter_mut().for_each(|frame| frame.ids = None);
+        }
         let first = all.first().map_or(0, |f| f.number);
         Ok(Self { frames, numbers, fps, first, own })
     }
@@ -135,6 +146,29 @@ impl Probes {
         let extent = self.bounds()?.size().max_element();
         let fastest = self.frames.iter().filter_map(placing::fastest);
         placing::hint(extent, fastest.reduce(f32::max))
+    }
+
+    /// The size of the water in a usual frame.
+    pub fn usual(&self) -> Option<Size> {
+        Size::usual(self.sizes().collect())
+    }
+
+    /// A warning about frames in another unit that are not among those `drawn`, but change the view.
+    pub fn in_another_unit(&self, drawn: &[Frame]) -> Option<String> {
+        let usual = self.usual()?;
+        let is_drawn = |size: &Size| drawn.iter().any(|frame| frame.number == size.number);
+        let others = self.sizes().filter(|size| !is_drawn(size));
+        let spacing = |number: u64| {
+            let at = self.numbers.iter().position(|known| *known == number)?;
+            whitewater::io::particles::estimate_spacing(&self.frames.get(at)?.positions)
+        };
+        let told = |size: Size| size.told(&usual, || [size.number, usual.number].map(spacing));
+        odd::together(others.filter_map(told))
+    }
+
+    fn sizes(&self) -> impl Iterator<Item = Size> {
+        let each = self.numbers.iter().zip(&self.frames);
+        each.filter_map(|(number, frame)| Size::of(*number, &frame.positions))
     }
 
     pub fn bounds(&self) -> Option<Bounds> {

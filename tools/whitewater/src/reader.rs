@@ -5,17 +5,19 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use glam::Vec3;
-use whitewater::io::particles::Particles;
 use whitewater::io::particles::sequence::Frame;
+use whitewater::io::particles::{Particles, estimate_spacing};
 
 use crate::args::Up;
 use crate::bounds;
 use crate::extras::{self, Condition};
 use crate::failure::Outcome;
 use crate::fluids::Fluids;
+use crate::odd::Size;
 use crate::placing::Placing;
 use crate::radii::{self, Split};
 use crate::surface_foam::quantile;
+use crate::tracks::Motion;
 
 /// Frames per second if no rate can be found.
 pub const DEFAULT_FPS: f32 = 30.0;
@@ -62,6 +64,12 @@ pub struct Reader<'a> {
     pub expected: Has,
     /// Attributes of the frames read so far.
     pub seen: Has,
+    /// Size of the water in a usual frame, in metres. A frame in another unit gets a warning.
+    pub usual: Option<Size>,
+    /// Its spacing, if it was needed.
+    usual_spacing: OnceCell<Option<f32>>,
+    /// What is wrong with ids or velocities, as the motion between two frames shows.
+    doubt: OnceCell<Motion>,
 }
 
 impl<'a> Reader<'a> {
@@ -86,6 +94,9 @@ impl<'a> Reader<'a> {
             found_velocities: false,
             expected: Has::default(),
             seen: Has::default(),
+            usual: None,
+            usual_spacing: OnceCell::new(),
+            doubt: OnceCell::new(),
         }
     }
 
@@ -99,6 +110,8 @@ impl<'a> Reader<'a> {
                 particles.positions.len()
             ));
         }
+        let told = self.in_another_unit(frame.number, &particles.positions);
+        particles.warnings.extend(told);
         let own = Has::of(&particles);
         self.seen = self.seen.or(own);
         if self.radii.is_none() {
@@ -186,6 +199,33 @@ impl<'a> Reader<'a> {
         self.fps = self.fps.map(|_| fps);
     }
 
+    /// A warning about a frame in another unit than the usual one, which is read again to find its spacing.
+    fn in_another_unit(&self, number: u64, positions: &[[f32; 3]]) -> Option<String> {
+        let usual = self.usual?;
+        let of_usual = || {
+            let frame = self.all.iter().find(|frame| frame.number == usual.number)?;
+            estimate_spacing(&self.as_it_is(frame).ok()?.positions)
+        };
+        let other = || *self.usual_spacing.get_or_init(of_usual);
+        Size::of(number, positions)?.told(&usual, || [estimate_spacing(positions), other()])
+    }
+
+    /// Takes note of what the motion between two frames shows. Ids that are only numbers of rows are dropped from frames
+    /// that are read from now on.
+    pub fn doubt(&self, motion: Motion) {
+        let _ = self.doubt.set(motion);
+    }
+
+    /// Whether ids are dropped.
+    pub fn drops_ids(&self) -> bool {
+        self.doubt.get() == Some(&Motion::Rows)
+    }
+
+    /// Warning about ids or velocities.
+    pub fn doubted(&self) -> Option<String> {
+        self.doubt.get().and_then(Motion::warning)
+    }
+
     /// Reads a frame without estimated attributes and without warnings about missing ones.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
         let mut particles = extras::read(frame, self.conditions, self.fluids, self.radius)?;
@@ -217,6 +257,10 @@ impl<'a> Reader<'a> {
             ));
         }
         self.placing.place(&mut particles);
+        if self.drops_ids() {
+            particles.ids = None;
+        }
+        particles.warnings.extend(self.doubted());
         Ok(particles)
     }
 

@@ -176,6 +176,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         probes.missing(all.len()).into_iter().for_each(|line| progress.say(&line));
     }
     reader.expected = probes.own;
+    reader.usual = probes.usual();
+    probes.in_another_unit(&left).iter().for_each(|line| progress.say(line));
     if let (None, Some(found)) = (args.fps, probes.fps) {
         reader.set_rate(found);
     }

@@ -9,6 +9,7 @@ use crate::args::Up;
 use crate::extras;
 use crate::fluids::Fluids;
 use crate::looks::round;
+use crate::odd::{self, Size};
 use crate::placing::Placing;
 use crate::probes;
 use crate::reader::{DEFAULT_FPS, Has, Reader};
@@ -21,12 +22,17 @@ pub struct Summary {
     fewest: usize,
     most: usize,
     own: Has,
+    /// Sizes of the frames, and the particles' spacing in them.
+    sizes: Vec<(Size, Option<f32>)>,
     /// Number and root mean square speed of the frame whose water is fastest. Walls do not count.
     liveliest: Option<(u64, f32)>,
 }
 
 impl Summary {
-    pub fn add(&mut self, number: u64, particles: &Particles) {
+    /// `spacing` is the particles' spacing.
+    pub fn add(&mut self, number: u64, particles: &Particles, spacing: Option<f32>) {
+        let size = Size::of(number, &particles.positions);
+        self.sizes.extend(size.map(|size| (size, spacing)));
         let count = particles.positions.len();
         self.fewest = if self.count == 0 { count } else { self.fewest.min(count) };
         self.most = self.most.max(count);
@@ -59,6 +65,14 @@ impl Summary {
         let found = probes::rate(&reader, all, self.own);
         let found = found.map(|(rate, how)| (rate / probes::step_of(all), how));
         let (rate, how) = found.unwrap_or((DEFAULT_FPS, "assumed; --fps of render sets it"));
+        let usual = Size::usual(self.sizes.iter().map(|(size, _)| *size).collect());
+        let of = |number: u64| self.sizes.iter().find(|(size, _)| size.number == number)?.1;
+        let told = |(size, spacing): &(Size, Option<f32>)| {
+            let usual = usual?;
+            size.told(&usual, || [*spacing, of(usual.number)])
+        };
+        let units = odd::together(self.sizes.iter().filter_map(told));
+        let warnings: Vec<String> = reader.doubted().into_iter().chain(units).collect();
         let liveliest = self
             .liveliest
             .map(|(frame, speed)| json!({"frame": frame, "root_mean_square_speed": speed}));
@@ -70,6 +84,7 @@ impl Summary {
             "particles": {"min": self.fewest, "max": self.most},
             "rate": {"frames_per_second": round(rate), "how": how},
             "liveliest": liveliest,
+            "warnings": warnings,
         }))
     }
 }
@@ -97,6 +112,9 @@ pub fn text(value: &Value) -> String {
         text += &format!(
             "  liveliest   frame {frame}, with a root mean square speed of {speed:.3} in the files' unit of speed\n"
         );
+    }
+    for warning in value["warnings"].as_array().map(Vec::as_slice).unwrap_or_default() {
+        text += &format!("  warning     {}\n", warning.as_str().unwrap_or_default());
     }
     text
 }

@@ -219,29 +219,6 @@ fn numbers(frame: &Particles, foam: &WeberSettings, spray: f32) -> Vec<(usize, f
         .collect()
 }
 
-/// Estimates the seconds between two frames: the median, over particles with the same id, of the displacement along
-/// the particle's mean velocity, divided by its mean speed.
-pub fn seconds(first: &Particles, second: &Particles) -> Option<f32> {
-    let (ids, velocities) = (first.ids.as_ref()?, first.velocities.as_ref()?);
-    let later = second.ids.as_ref()?.iter().zip(&second.positions);
-    let later = later.zip(second.velocities.as_ref()?);
-    let later: HashMap<u32, (Vec3, Vec3)> =
-        later.map(|((id, p), v)| (*id, (Vec3::from(*p), Vec3::from(*v)))).collect();
-    let now = ids.iter().zip(&first.positions).zip(velocities);
-    let mut found: Vec<f32> = now
-        .filter_map(|((id, p), v)| {
-            let (position, velocity) = later.get(id)?;
-            let mean = 0.5 * (Vec3::from(*v) + velocity);
-            let seconds = (position - Vec3::from(*p)).dot(mean) / mean.length_squared();
-            (seconds.is_finite() && seconds > 0.0).then_some(seconds)
-        })
-        .collect();
-    let middle = found.len() / 2;
-    let (_, median, _) =
-        (!found.is_empty()).then(|| found.select_nth_unstable_by(middle, f32::total_cmp))?;
-    Some(*median)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -254,25 +231,6 @@ mod tests {
         let rows = (0..100).map(|i| format!("0,{i},0,{i},0,0\n"));
         let text = format!("x,y,z,vx,vy,vz\n{}", rows.collect::<String>());
         read_bytes(text.as_bytes(), Extension::Csv).unwrap()
-    }
-
-    #[test]
-    fn time_is_found_by_how_far_they_went() {
-        let mut first = csv();
-        first.ids = Some((0..100).collect());
-        let mut second = first.clone();
-        assert_eq!(seconds(&first, &first), None, "nothing moved");
-        for (p, v) in second.positions.iter_mut().zip(second.velocities.iter().flatten()) {
-            *p = [p[0] + 0.04 * v[0], p[1] + 0.04 * v[1], p[2] + 0.04 * v[2]];
-        }
-        second.positions.reverse();
-        second.velocities.as_mut().unwrap().reverse();
-        second.ids.as_mut().unwrap().reverse();
-        let found = seconds(&first, &second).unwrap();
-        assert!((found - 0.04).abs() < 1.0e-5, "{found}");
-        second.ids = Some((1000..1100).collect());
-        assert_eq!(seconds(&first, &second), None, "others");
-        assert_eq!(seconds(&csv(), &second), None, "no ids");
     }
 
     #[test]

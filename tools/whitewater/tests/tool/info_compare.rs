@@ -4,7 +4,7 @@ use serde_json::Value;
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{Layers, write_exr, write_png};
 
-use super::support::{Folder, SPACING, block};
+use super::support::{Folder, SMALL, SPACING, block};
 
 #[test]
 fn info_tells_what_a_file_holds() {
@@ -103,6 +103,110 @@ fn info_sums_up_a_sequence() {
     assert!(!text.contains("liveliest"), "{text}");
 }
 
+/// The attribute that gave the time, the one that marks ghosts, and units in a row below the names.
+#[test]
+fn info_tells_times_ghosts_and_units() {
+    let folder = Folder::new();
+    for name in ["Iteration", "Frame No.", "sim_time", "snapshot"] {
+        folder.text("a.csv", &format!("x,y,z,{name}\n0,0,0,7\n0.1,0,0,7\n0,0.1,0,7\n"));
+        let text = folder.run("info a.csv").ok().stdout();
+        assert!(text.contains(&format!("{name} (number x 1): time")), "{text}");
+        assert!(text.contains("  time        7\n"), "{text}");
+    }
+    folder.text("b.csv", "x,y,z,vtkGhostType\n0,0,0,0\n0.1,0,0,1\n0,0.1,0,0\n");
+    let text = folder.run("info b.csv").ok().stdout();
+    assert!(text.contains("vtkGhostType (number x 1): ghost"), "{text}");
+    for (unit, told) in [
+        (
+            "mm",
+            "unit        the names of the positions say mm, but they are read as metres; --unit mm",
+        ),
+        ("m", "unit        m, as the names of the positions say (`x [m]`; a row of units below"),
+    ] {
+        folder.text("c.csv", &format!("x,y,z\n{unit},{unit},{unit}\n0,0,0\n0.1,0,0\n0,0.1,0\n"));
+        let text = folder.run("info c.csv").ok().stdout();
+        assert!(text.contains(told), "{text}");
+        assert!(text.contains("particles   3\n"), "{text}");
+    }
+}
+
+/// A frame in another unit, ids that number the rows, and velocities in other axes.
+#[test]
+fn info_tells_what_does_not_fit_in_a_sequence() {
+    let folder = Folder::new();
+    // The block turns about its middle, one radian a second, and rises.
+    let rows = |frame: usize, scale: f32, shuffle: bool, turned: bool| {
+        let angle = 0.04 * frame as f32;
+        let (sin, cos) = angle.sin_cos();
+        let points: Vec<_> = block(6).into_iter().enumerate().collect();
+        let mut text = String::from("x,y,z,vx,vy,vz,id\n");
+        for row in 0..216 {
+            let pick = if shuffle { (row * 61 + 31 * frame) % 216 } else { row };
+            let (_, [x, y, z]) = points[pick];
+            let (x, z) = (x * cos - z * sin, x * sin + z * cos);
+            let v = if turned { [-z, x, 0.1] } else { [-z, 0.1, x] };
+            let p = [x, y + 0.1 * angle, z].map(|c| c * scale);
+            let [p, v] = [p, v].map(|v| v.map(|c| c.to_string()).join(","));
+            text += &format!("{p},{v},{row}\n");
+        }
+        text
+    };
+    let said = |name: &str, scale: &dyn Fn(usize) -> f32, shuffle: bool, turned: bool| {
+        for frame in 1..=4 {
+            let text = rows(frame, scale(frame), shuffle, turned);
+            folder.text(&format!("{name}_{frame}.csv"), &text);
+        }
+        let text = folder.run(&format!("info {name}_*.csv")).ok().stdout();
+        text[text.find("4 frames, 1 to 4").unwrap()..].to_string()
+    };
+    let plain = said("plain", &|_| 1.0, false, false);
+    assert!(plain.contains("25 frames a second (from velocities and positions)"), "{plain}");
+    assert!(!plain.contains("warning"), "{plain}");
+    let shuffled = said("rows", &|_| 1.0, true, false);
+    assert!(shuffled.contains("30 frames a second (assumed"), "{shuffled}");
+    assert!(shuffled.contains("warning     ids are dropped: they number the rows"), "{shuffled}");
+    let turned = said("turned", &|_| 1.0, false, true);
+    assert!(turned.contains("25 frames a second (from velocities and positions)"), "{turned}");
+    assert!(turned.contains("with the axes x z y they do"), "{turned}");
+    for (scale, words) in [(1000.0, "lie 1000 times"), (0.01, "lie 0.01 times")] {
+        let odd = said("odd", &|frame| if frame == 3 { scale } else { 1.0 }, false, false);
+        assert_eq!(odd.matches("warning").count(), 1, "{odd}");
+        assert!(odd.contains(&format!("the particles of frame 3 {words} as far apart")), "{odd}");
+    }
+    // `render` says each once, and draws without these ids.
+    for (name, words) in [
+        ("rows", "hold other particles in the next frame, as the velocities show"),
+        ("turned", "with the axes x z y they do: write"),
+        ("odd", "the particles of frame 3 lie 0.01 times as far apart as those of frame"),
+    ] {
+        let said = folder.run(&format!("render {name}_*.csv -o {name}.png {SMALL}")).ok().stderr();
+        assert_eq!(said.matches(words).count(), 1, "{said}");
+    }
+    // A frame that is not drawn changes the view all the same.
+    let said = folder.run(&format!("render odd_*.csv -o b.png {SMALL} --frames 1-2")).ok().stderr();
+    assert_eq!(said.matches("the particles of frame 3 lie 0.01 times").count(), 1, "{said}");
+}
+
+/// A folder of MATLAB's files: those of version 7.3 are frames, others are named with the way out.
+#[test]
+fn info_lists_files_of_matlab() {
+    let folder = Folder::new();
+    let samples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/formats/hdf5");
+    std::fs::create_dir_all(folder.path("new")).unwrap();
+    std::fs::create_dir_all(folder.path("old")).unwrap();
+    for frame in 1..=2 {
+        let to = folder.path(&format!("new/w_{frame}.mat"));
+        std::fs::copy(samples.join("matlab.mat"), to).unwrap();
+        let header =
+            format!("{:116}\0\0\0\0\0\0\0\0\0\u{1}IM", "MATLAB 5.0 MAT-file, Platform: GLNXA64");
+        folder.text(&format!("old/w_{frame}.mat"), &header);
+    }
+    let text = folder.run("info new").ok().stdout();
+    assert!(text.contains("2 frames, 1 to 2"), "{text}");
+    let run = folder.run("info old");
+    assert!(run.stderr().contains("scipy.io.loadmat('FILE')"), "{}", run.stderr());
+}
+
 #[test]
 fn info_goes_on_after_a_bad_file() {
     let folder = Folder::new();
@@ -136,6 +240,7 @@ fn info_sums_up_what_can_be_read() {
         "particles": {"min": 8, "max": 27},
         "rate": {"frames_per_second": 30.0, "how": "assumed; --fps of render sets it"},
         "liveliest": null,
+        "warnings": [],
     });
     assert_eq!(value["sequence"], expected);
     for bad in ["b_1.ply", "b_2.ply"] {
