@@ -76,12 +76,32 @@ pub fn count_far(positions: &[[f32; 3]]) -> usize {
     positions.iter().map(|p| Vec3::from(*p)).filter(far).count()
 }
 
+/// What the positions of a frame say about their extent.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Rest spacing, estimated from the positions that [`together`] keeps. `None` if it cannot be estimated.
+    pub spacing: Option<f32>,
+    /// [`Bounds::of_bulk`].
+    pub bulk: Option<Bounds>,
+}
+
+impl Extent {
+    pub fn of(positions: &[[f32; 3]]) -> Self {
+        let positions = together(positions);
+        let spacing = estimate_spacing(&positions);
+        Self { spacing, bulk: Bounds::of_near(&positions, spacing) }
+    }
+}
+
 impl Bounds {
     /// Bounding box of the particles that [`together`] keeps, without strays. Strays are at most 1 in 500 particles
     /// at each end of an axis, if they are far from the rest, and the few particles that fly farther than spray from
     /// the bodies of water. `None` without particles.
     pub fn of_bulk(positions: &[[f32; 3]]) -> Option<Self> {
-        let positions = together(positions);
+        Extent::of(positions).bulk
+    }
+
+    fn of_near(positions: &[[f32; 3]], spacing: Option<f32>) -> Option<Self> {
         let mut bounds = Self { min: Vec3::ZERO, max: Vec3::ZERO };
         for axis in 0..3 {
             let mut values: Vec<f32> = positions.iter().map(|p| p[axis]).collect();
@@ -94,7 +114,8 @@ impl Bounds {
             bounds.min[axis] = first.max(low - near);
             bounds.max[axis] = last.min(high + near);
         }
-        Some(bounds.within_reach_of(Self::of_bodies(&positions), &positions))
+        let bodies = spacing.and_then(|spacing| Self::of_bodies(positions, CELL * spacing));
+        Some(bounds.within_reach_of(bodies, positions))
     }
 
     /// Shrinks the box on each side on which only few particles ([`STRAY`]) are farther from the bodies of water than
@@ -122,10 +143,9 @@ impl Bounds {
         bounds
     }
 
-    /// Bounding box of the bodies of water, and the width of a cell. A body consists of connected cells with at least
+    /// Bounding box of the bodies of water, and the width of a cell, as given. A body consists of connected cells with at least
     /// [`DENSE`] particles each, which together hold at least [`BODY`] of all particles. `None` if there is no body.
-    fn of_bodies(positions: &[[f32; 3]]) -> Option<(Self, f32)> {
-        let cell = CELL * estimate_spacing(positions)?;
+    fn of_bodies(positions: &[[f32; 3]], cell: f32) -> Option<(Self, f32)> {
         let mut cells: HashMap<[i64; 3], (usize, Self)> = HashMap::new();
         for p in positions {
             let p = Vec3::from(*p);

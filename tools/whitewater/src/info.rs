@@ -7,7 +7,7 @@ use whitewater::io::particles::sequence::{self, Frame, SequenceError};
 use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, Extent};
 use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::fluids::Fluids;
@@ -150,7 +150,8 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
 
 /// The axis that points up.
 fn up(particles: &Particles) -> Value {
-    match upright::find(std::slice::from_ref(particles)) {
+    let extent = Extent::of(&particles.positions);
+    match upright::find(std::slice::from_ref(particles), &[extent]) {
         Some(found) => json!({"axis": found.up.name(), "sure": found.sure, "why": found.why}),
         None => json!({
             "axis": "y",

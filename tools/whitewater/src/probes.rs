@@ -1,15 +1,16 @@
 //! Properties that are found from a few frames of a sequence.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
+use whitewater::io::particles::Particles;
 use whitewater::io::particles::sequence::Frame;
-use whitewater::io::particles::{self, Particles};
 
-use crate::bounds::{self, Bounds};
+use crate::bounds::{Bounds, Extent};
 use crate::failure::Outcome;
 use crate::fluids;
 use crate::odd::{self, Size};
-use crate::placing;
+use crate::placing::{self, Placing};
 use crate::reader::{Has, Reader};
 use crate::surface_foam;
 use crate::tracks::{self, Motion};
@@ -22,6 +23,8 @@ const PROBES: usize = 16;
 /// depend on which range of frames a run draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
+    /// Extents of the frames. They take much of a short run's time, so they are found once.
+    extents: OnceCell<Vec<Extent>>,
     pub numbers: Vec<u64>,
     /// Frame numbers per second ([`rate`]).
     pub fps: Option<f32>,
@@ -103,7 +106,7 @@ impl Probes {
             frames.iter_mut().for_each(|frame| frame.ids = None);
         }
         let first = all.first().map_or(0, |f| f.number);
-        Ok(Self { frames, numbers, fps, first, own })
+        Ok(Self { frames, extents: OnceCell::new(), numbers, fps, first, own })
     }
 
     /// A message about what missing attributes mean for foam: if no probed frame has velocities (those that were
@@ -133,9 +136,20 @@ impl Probes {
         })
     }
 
+    /// The extent of each frame.
+    pub fn extents(&self) -> &[Extent] {
+        let all = || self.frames.iter().map(|frame| Extent::of(&frame.positions)).collect();
+        self.extents.get_or_init(all)
+    }
+
+    /// Places the frames anew.
+    pub fn place(&mut self, placing: Placing) {
+        self.extents = OnceCell::new();
+        self.frames.iter_mut().for_each(|frame| placing.place(frame));
+    }
+
     pub fn spacing(&self) -> Option<f32> {
-        let each = |f: &Particles| particles::estimate_spacing(&bounds::together(&f.positions));
-        self.frames.iter().find_map(each)
+        self.extents().iter().find_map(|extent| extent.spacing)
     }
 
     /// A message if the water's extent is implausible.
@@ -172,7 +186,7 @@ impl Probes {
     }
 
     pub fn bounds(&self) -> Option<Bounds> {
-        self.frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions)).reduce(|a, b| a.union(&b))
+        self.extents().iter().filter_map(|extent| extent.bulk).reduce(|a, b| a.union(&b))
     }
 
     /// Rest density in the unit of the file: 1000 if the median of the densities is near it, otherwise their 0.9

@@ -137,7 +137,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
-    let found = upright::find(&probes.frames);
+    let found = upright::find(&probes.frames, probes.extents());
     let particles = probes.frames.iter().any(|frame| frame.positions.len() > 1);
     // A user who gives a camera knows the up axis.
     if args.up_axis.is_none() && found.is_none() && camera.is_none() && particles {
@@ -153,10 +153,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         ));
         placing.up = up;
         reader.turn(up);
-        let turned = Placing { up, scale: 1.0, origin };
-        probes.frames.iter_mut().for_each(|frame| turned.place(frame));
+        probes.place(Placing { up, scale: 1.0, origin });
     }
-    let sheet = upright::flat(&probes.frames).filter(|across| *across != 1);
+    let sheet = upright::flat(probes.extents()).filter(|across| *across != 1);
     if sheet.is_some() {
         progress.say("the particles are two-dimensional: drawn as a sheet one spacing thick, seen from the front");
     }

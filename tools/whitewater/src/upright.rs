@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 
 use glam::Vec3;
-use whitewater::io::particles::{self, Particles};
+use whitewater::io::particles::Particles;
 
 use crate::args::Up;
-use crate::bounds::Bounds;
+use crate::bounds::Extent;
 
 /// Width in spacings of the columns in which water is measured.
 const COLUMN: f32 = 3.0;
@@ -87,22 +87,23 @@ pub struct Found {
 
 /// Detects the up axis from frames of a sequence in the files' coordinates: water lies on a floor, is open above, and
 /// moves down as a whole. Only y, -y, z and -z are candidates. x is none, because dams often break along x and then
-/// move like falling water. `None` if the evidence is missing or ambiguous; callers then assume y.
-pub fn find(frames: &[Particles]) -> Option<Found> {
-    let across = flat(frames);
-    let of = |frames: &[Particles]| {
+/// move like falling water. `extents` has the extent of each frame. `None` if the evidence is missing or ambiguous;
+/// callers then assume y.
+pub fn find(frames: &[Particles], extents: &[Extent]) -> Option<Found> {
+    let across = flat(extents);
+    let of = |frames: &[Particles], extents: &[Extent]| {
         let asked = [1, 2].into_iter().filter(|axis| across != Some(*axis));
-        asked.map(|axis| look(frames, axis)).collect::<Option<Vec<_>>>()
+        asked.map(|axis| look(frames, extents, axis)).collect::<Option<Vec<_>>>()
     };
-    let axes = of(frames)?;
+    let axes = of(frames, extents)?;
     let by_frames = || {
         // Water that sinks from frame to frame lies on no common floor. Then each frame is looked at by itself, and
         // the majority decides.
         if frames.len() < 2 {
             return None;
         }
-        let all = frames.iter().map(std::slice::from_ref);
-        let said: Vec<_> = all.filter_map(|frame| other(&of(frame)?)).collect();
+        let all = frames.chunks(1).zip(extents.chunks(1));
+        let said: Vec<_> = all.filter_map(|(one, extent)| other(&of(one, extent)?)).collect();
         let first = said.first()?;
         let same = said.iter().filter(|found| found.up == first.up).count();
         (2 * same > frames.len()).then(|| first.clone())
@@ -147,26 +148,24 @@ fn other(axes: &[Axis]) -> Option<Found> {
 }
 
 /// If all particles of all frames form a single layer, that is, if they are two-dimensional, the axis perpendicular
-/// to the layer.
-pub fn flat(frames: &[Particles]) -> Option<usize> {
+/// to the layer. `extents` has the extent of each frame.
+pub fn flat(extents: &[Extent]) -> Option<usize> {
     let mut found = [true; 3];
-    for frame in frames {
-        let spacing = particles::estimate_spacing(&crate::bounds::together(&frame.positions))?;
-        let size = Bounds::of_bulk(&frame.positions)?.size();
+    for extent in extents {
+        let (spacing, size) = (extent.spacing?, extent.bulk?.size());
         (0..3).for_each(|axis| found[axis] &= size[axis] < LAYER * spacing);
     }
     // A line or a point lies in several planes.
-    let mut flat = (0..3).filter(|axis| found[*axis] && !frames.is_empty());
+    let mut flat = (0..3).filter(|axis| found[*axis] && !extents.is_empty());
     flat.next().filter(|_| flat.next().is_none())
 }
 
-fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
-    let bounds = frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions));
-    let bounds = bounds.reduce(|a, b| a.union(&b))?;
+fn look(frames: &[Particles], extents: &[Extent], axis: usize) -> Option<Axis> {
+    let bounds = extents.iter().filter_map(|extent| extent.bulk).reduce(|a, b| a.union(&b))?;
     let (mut shares, mut moves) = (Vec::new(), Vec::new());
-    for frame in frames {
+    for (frame, extent) in frames.iter().zip(extents) {
         let inside: Vec<Vec3> = frame.positions.iter().map(|p| Vec3::from(*p)).collect();
-        let spacing = particles::estimate_spacing(&crate::bounds::together(&frame.positions))?;
+        let spacing = extent.spacing?;
         let mut columns: HashMap<[i64; 2], [f32; 2]> = HashMap::new();
         let across = [(axis + 1) % 3, (axis + 2) % 3];
         for p in inside.iter().filter(|p| bounds.contains(**p)) {
@@ -198,6 +197,18 @@ fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn extents(frames: &[Particles]) -> Vec<Extent> {
+        frames.iter().map(|frame| Extent::of(&frame.positions)).collect()
+    }
+
+    fn find(frames: &[Particles]) -> Option<Found> {
+        super::find(frames, &extents(frames))
+    }
+
+    fn flat(frames: &[Particles]) -> Option<usize> {
+        super::flat(&extents(frames))
+    }
 
     fn is_z(frames: &[Particles]) -> Option<Found> {
         find(frames).filter(|found| found.up == Up::Z)
