@@ -2,9 +2,10 @@
 //! the air as a flat face looks cut off, so a channel is drawn around the start of the jet.
 
 use glam::{Mat3, Quat, Vec2, Vec3};
-use whitewater::headless::scene::{Material, Mesh};
+use whitewater::headless::scene::{Material, Mesh, Pattern};
 
 use crate::cells::Cells;
+use crate::sets;
 
 /// Min number of particles of a mouth.
 const FEW: usize = 12;
@@ -21,6 +22,9 @@ const STEEP: f32 = 0.5;
 /// rectangle that they fill (a circle fills 0.79).
 const FLAT: f32 = 0.8;
 const FULL: f32 = 0.55;
+
+/// Length in spacings by which a spout's walls reach before its mouth.
+const LIP: f32 = 2.5;
 
 /// The start of a jet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,34 +122,37 @@ fn spout(
 }
 
 impl Spout {
-    /// A channel with thick walls around the spout. It extends back from the mouth by `back`, to a pier that stands
-    /// on the floor.
+    /// A channel with thick walls of `stone` around the spout, lined with dark metal. It extends back from the mouth by
+    /// `back`, to a pier that stands on the floor.
     pub fn meshes(&self, spacing: f32, floor: f32, back: f32, stone: &Material) -> Vec<Mesh> {
         let wall = (0.25 * self.half.min_element()).max(0.7 * spacing);
         let turn = Quat::from_mat3(&self.frame).to_array();
-        let push = |name: &str, middle: Vec3, half: Vec3| {
+        let push = |middle: Vec3, half: Vec3, of: &Material| {
             let at = self.mouth + self.frame * middle;
-            let mesh = Mesh::cuboid(at.to_array(), half.to_array(), turn, stone.clone());
-            Mesh { name: name.into(), ..mesh }
+            let mesh = Mesh::cuboid(at.to_array(), half.to_array(), turn, of.clone());
+            Mesh { name: "spout".into(), ..mesh }
         };
-        let Vec2 { x, y } = self.half + 0.25 * spacing;
-        // The lip of the channel is in front of the box that fills the channel and hides the start of the water.
-        let (lip, hidden) = (0.9 * spacing, 0.3 * spacing);
-        let long = 0.5 * (back + lip);
-        let middle = lip - long;
-        let mut meshes = vec![push(
-            "spout",
-            Vec3::new(0.0, 0.0, hidden - 0.5 * back),
-            Vec3::new(x, y, 0.5 * back),
-        )];
-        for (at, half) in [
-            (Vec3::new(0.0, y + 0.5 * wall, middle), Vec3::new(x + wall, 0.5 * wall, long)),
-            (Vec3::new(0.0, -y - 0.5 * wall, middle), Vec3::new(x + wall, 0.5 * wall, long)),
-            (Vec3::new(x + 0.5 * wall, 0.0, middle), Vec3::new(0.5 * wall, y, long)),
-            (Vec3::new(-x - 0.5 * wall, 0.0, middle), Vec3::new(0.5 * wall, y, long)),
-        ] {
-            meshes.push(push("spout", at, half));
-        }
+        let metal = sets::material([0.10, 0.095, 0.085], 0.5, Pattern::Plain);
+        // The lip of the channel is in front of the box that fills the channel and hides the start of the water. Seen
+        // through water, stone would look like a lump of glass, so box and lining are dark.
+        let (lip, hidden, lining) = (LIP * spacing, 0.3 * spacing, 0.2 * wall);
+        let Vec2 { x, y } = self.half + lining;
+        let box_middle = Vec3::new(0.0, 0.0, hidden - 0.5 * back);
+        let mut meshes = vec![push(box_middle, self.half.extend(0.5 * back), &metal)];
+        // `x` and `y`: half of the width and height inside, `end`: how far the walls reach before the mouth.
+        let mut walls = |Vec2 { x, y }: Vec2, wall: f32, end: f32, of: &Material| {
+            let long = 0.5 * (back + end);
+            let (across, up) =
+                (Vec3::new(0.5 * wall, y, long), Vec3::new(x + wall, 0.5 * wall, long));
+            for side in [-1.0, 1.0] {
+                let middle = Vec3::new(side * (x + 0.5 * wall), 0.0, end - long);
+                meshes.push(push(middle, across, of));
+                let middle = Vec3::new(0.0, side * (y + 0.5 * wall), end - long);
+                meshes.push(push(middle, up, of));
+            }
+        };
+        walls(self.half, lining, lip + lining, &metal);
+        walls(self.half + lining, wall, lip, stone);
         // The pier is upright for every slope of the jet.
         let end = self.mouth - back * self.frame.z_axis;
         let top = end.y + y + wall;
@@ -225,7 +232,7 @@ mod tests {
         let high = all.iter().copied().reduce(Vec3::max).unwrap();
         assert!((low.y + 0.2).abs() < 1.0e-4, "{low}");
         // The channel extends no farther forward than the lip, and back to the pier.
-        assert!(high.z > 0.5 * SPACING && high.z < SPACING && low.z < -0.8, "{low} {high}");
+        assert!(high.z > 2.0 * SPACING && high.z < 3.0 * SPACING && low.z < -0.8, "{low} {high}");
         let core = corners(&meshes[0]).into_iter().reduce(Vec3::max).unwrap();
         assert!(core.z > 0.1 * SPACING && core.z < high.z);
     }
