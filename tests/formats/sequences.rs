@@ -199,6 +199,11 @@ fn units_of_time_in_names() {
         names.sort();
         assert_eq!(times(&format!("unit {name}"), &names, pattern), expected, "{name}");
     }
+    let folder = Files::new("unit seconds", &["w_1ms.csv", "w_2ms.csv", "v_0.1.csv", "v_0.2.csv"]);
+    for (pattern, in_seconds) in [("w_*.csv", true), ("w_%dms.csv", true), ("v_*.csv", false)] {
+        let frames = expand(&[folder.input(pattern)], None).unwrap();
+        assert!(frames.iter().all(|frame| frame.in_seconds == in_seconds), "{pattern}");
+    }
     // Letters that are no unit of time, or do not end the word.
     let frame = |number, path: &str| (number, None, path.to_string());
     for (name, files) in [

@@ -23,6 +23,8 @@ pub struct Frame {
     /// `0.5s/cloud`; see [`time_unit`]). Otherwise it is in the author's unit: from a list of files (`.pvd`, `.series`), or
     /// from a number with a decimal point or an exponent in a name (`t0.32`, `0.32/cloud`, `4.0e-04`).
     pub time: Option<f64>,
+    /// Whether the time is in seconds, as a unit in the name says.
+    pub in_seconds: bool,
     /// The file.
     pub path: PathBuf,
     /// Other files with particles of the same frame.
@@ -34,7 +36,7 @@ pub struct Frame {
 
 impl Frame {
     fn new(number: u64, time: Option<f64>, path: PathBuf) -> Self {
-        Self { number, time, path, also: Vec::new(), step: None }
+        Self { number, time, in_seconds: false, path, also: Vec::new(), step: None }
     }
 
     /// All files of the frame.

@@ -41,6 +41,7 @@ pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
     let of = |step: Step| Frame {
         number: step.index as u64,
         time: step.time,
+        in_seconds: false,
         step: Some(step),
         ..frame.clone()
     };

@@ -152,18 +152,24 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Frames per second from the times stored in the first two files, or from times in their names, unless those are
-    /// step numbers.
+    /// Frames per second from the times in the names of the first two files, if they are in seconds; else from the times
+    /// stored in these files, or from others in their names, unless those are step numbers.
     pub fn rate(&self) -> Option<f32> {
         *self.by_time.get_or_init(|| self.find_rate())
     }
 
     fn find_rate(&self) -> Option<f32> {
         let [a, b, ..] = self.all else { return None };
-        let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
+        let numbers = (b.number - a.number) as f32;
+        let named = a.in_seconds && b.in_seconds;
+        let [first, second] = [a, b].map(|frame| match named {
+            true => frame.time,
+            false => self.as_it_is(frame).ok()?.time.or(frame.time),
+        });
         let seconds = (second? - first?) as f32;
-        // Step numbers differ by whole numbers.
-        (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)
+        let least = if named { 0.0 } else { LEAST };
+        // Step numbers differ by whole numbers, and frames that are seconds apart are no film.
+        (seconds > least && seconds < 1.0).then_some(numbers / seconds)
     }
 
     /// The radius that larger particles are split to; `None` if radii are alike.

@@ -89,7 +89,7 @@ mod tests {
 
     fn frame(number: u64) -> Frame {
         let path = PathBuf::from("f.ply");
-        Frame { number, time: None, path, also: Vec::new(), step: None }
+        Frame { number, time: None, in_seconds: false, path, also: Vec::new(), step: None }
     }
 
     fn arguments(more: &str) -> Box<RenderArgs> {

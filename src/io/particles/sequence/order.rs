@@ -134,7 +134,8 @@ pub(super) fn number(mut named: Vec<Named>) -> Result<Vec<Frame>, SequenceError>
     if named.iter().all(|named| named.said.is_some()) {
         let frame = |named: Named| {
             let (number, time) = named.said.unwrap_or_default();
-            Frame::new(number, time, named.path)
+            let in_seconds = time.is_some() && !named.listed;
+            Frame { in_seconds, ..Frame::new(number, time, named.path) }
         };
         return Ok(named.into_iter().map(frame).collect());
     }
@@ -160,7 +161,8 @@ pub(super) fn number(mut named: Vec<Named>) -> Result<Vec<Frame>, SequenceError>
     }
     if let Some(whole) = whole.filter(|_| !differ) {
         let frame = |(i, (named, number)): (usize, (Named, u64))| {
-            Frame::new(number, seconds(i), named.path)
+            let frame = Frame::new(number, seconds(i), named.path);
+            Frame { in_seconds: times.is_some(), ..frame }
         };
         return Ok(named.into_iter().zip(whole).enumerate().map(frame).collect());
     }
@@ -197,7 +199,8 @@ pub(super) fn number(mut named: Vec<Named>) -> Result<Vec<Frame>, SequenceError>
         let own = || numbers.get(i).map(|number| number.value).filter(|_| decimal);
         let time = seconds(i).or_else(own);
         if let Some(named) = named.get_mut(i) {
-            frames.push(Frame::new(number, time, std::mem::take(&mut named.path)));
+            let frame = Frame::new(number, time, std::mem::take(&mut named.path));
+            frames.push(Frame { in_seconds: times.is_some(), ..frame });
         }
     }
     Ok(frames)

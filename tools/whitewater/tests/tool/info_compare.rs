@@ -94,6 +94,12 @@ fn info_sums_up_a_sequence() {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!folder.run("info run_10.csv").ok().stdout().contains("frames a second"));
+    // Times with a unit are seconds, however short; the file's own time may be a step.
+    for time in ["900us", "925us", "0.95ms"] {
+        folder.text(&format!("t_{time}.csv"), "x,y,z,time\n0,0,0,7\n1,0,0,7\n0,1,0,7\n");
+    }
+    let text = folder.run("info t_*.csv").ok().stdout();
+    assert!(text.contains("40000 frames a second (from the frames' times)"), "{text}");
     // Without velocities the rate is assumed.
     for frame in 1..3 {
         folder.text(&format!("bare_{frame}.csv"), "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
