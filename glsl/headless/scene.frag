@@ -78,7 +78,7 @@ float lines(float x, float width, float footprint) {
     return clamp((covered.y - covered.x) / footprint, 0.0, 1.0);
 }
 
-// Glazed tiles with grout, each with its own shade; one row is a dark band.
+// Glazed tiles with grout, each with its own shade; one row is a darker band.
 Surface tiles(vec2 q, vec2 footprint, float height) {
     float size = push.pattern.x;
     q /= size;
@@ -95,7 +95,7 @@ Surface tiles(vec2 q, vec2 footprint, float height) {
     vec2 in_tile = abs(fract(q) - 0.5) * 2.0;
     tile *= 1.0 - one * 0.10 * pow(max(in_tile.x, in_tile.y), 4.0);
     if (floor(height / size) == floor(push.pattern.y / size)) {
-        tile *= vec3(0.16, 0.33, 0.56);
+        tile *= vec3(0.45, 0.56, 0.60);
     }
     Surface s;
     s.albedo = mix(tile, vec3(0.50, 0.48, 0.43), grout);
