@@ -205,8 +205,8 @@ impl Composite {
         }
     }
 
-    /// Records pass `composite`. Before and after it all layers are in the state in which fragment shaders sample
-    /// them; compute shaders can also sample the layers of `whitewater` and `bubbles`.
+    /// Records pass `composite`. All layers must be in the state in which fragment shaders sample them; compute shaders
+    /// can also sample the layers of `whitewater` and `bubbles`. After the pass the layers are in the same state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

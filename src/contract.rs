@@ -239,10 +239,10 @@ pub struct Config {
     pub max_iterations: u32,
     /// Number of additional smoothing resolutions (levels), each half of the one before, for water near the camera: 0
     /// to 3 (default 3). Near water needs more iterations than [`max_iterations`](Self::max_iterations) allows; at
-    /// half the resolution it needs a quarter of them. Each further level halves the distance down to which water is
-    /// fully smoothed, so 3 levels reach an eighth of it. Each pixel selects its level by the distance of its water,
-    /// and blends between two levels. Levels apply only to smoothing of constant width (the default rule). 0 saves up
-    /// to a third of the smoothing's memory.
+    /// half the resolution it needs a quarter of them. Without levels, water nearer than a certain distance is smoothed
+    /// too little. Each level halves this distance, so 3 levels reduce it to an eighth. Each pixel selects its level by
+    /// the distance of its water, and blends between two levels. With another rule than constant width (the default)
+    /// the levels have no effect. 0 saves up to a third of the smoothing's memory.
     pub coarsening: u32,
     /// Maximum number of layers of water (sheets) in a pixel: 1 as in the thesis, or 2 (default). With 2, water that
     /// stands in front of other water with air between, such as a drop in front of a pool, is a layer of its own.
@@ -1250,7 +1250,7 @@ pub struct Settings {
     pub noise: SurfaceNoiseSettings,
     /// Sun and sky light.
     pub light: Light,
-    /// How many layers the composite contains, for debug views. Default: all.
+    /// Which parts of the picture the composite contains, for debug views. Default: all.
     #[cfg(feature = "diagnostics")]
     pub debug_view: DebugView,
     #[cfg(not(feature = "diagnostics"))]
@@ -1380,9 +1380,10 @@ impl Light {
     }
 }
 
-/// An intermediate image that `record` leaves for the host, which may read it until the next `record`. The host leaves
-/// it in the layout of `access`, and the next `record` overwrites it. On the same queue a barrier from the host's use
-/// to `access` is enough; on another queue the next submission must wait for the host's reads as well.
+/// An intermediate image of `record` that the host may read. The next `record` expects it in the layout of
+/// [`access`](Self::access) and overwrites it. If the host's commands read the image on the queue of `record`, they end
+/// with a barrier from this use to `access`. If they read it on another queue, the submission of the next `record` must
+/// also wait for them, with a semaphore for example.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {

@@ -16,7 +16,7 @@ pub struct Diagnostics {
     /// With [`Smoothing::Query`](crate::water::Smoothing), which runs the smoothing in blocks of five iterations: a
     /// buffer of one `u32` per block, and the number of blocks. Each `u32` is the number of samples that were still
     /// active in the block's last iteration (5, 10, …). It is 0 for a block that was skipped; the last block is not
-    /// counted. Transfer source; last written by a transfer.
+    /// counted. The buffer has transfer-source usage; a transfer writes it last.
     pub active_samples: Option<(vk::Buffer, u32)>,
     /// Particle statistics.
     pub counts: Option<ParticleCounts>,
@@ -25,29 +25,31 @@ pub struct Diagnostics {
     /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number of
     /// tiles, in all smoothing levels together, that hold water or show foam, spray, whitewater particles or bubble
     /// foam; a tile is 16×16 texels of its level. In record i, 1 to 257, the fourth word is the number of tiles that
-    /// iteration i processes. Transfer source; last written by a compute shader, read as indirect arguments.
+    /// iteration i processes. The buffer has transfer-source usage. In `record` a compute shader writes it, and it is
+    /// then read as indirect arguments and by compute shaders.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness image, row by row: the
-    /// eye depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;
-    /// last written by a compute shader, read by compute and fragment shaders.
+    /// eye depth at which the two layers of water are separated, 1e10 where there is only one layer. The buffer has
+    /// transfer-source usage. In `record` a compute shader writes it, and compute and fragment shaders then read it.
     pub sheets: Option<vk::Buffer>,
     /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. These hold the
     /// position where the particle is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to
     /// its ellipsoid (xx, yy, zz, yz, xz, xy, each a signed normalised 16-bit number, times 4); the matrix of its
     /// ellipsoid as spray, in the same form; and the sum of the weights of its neighbours (f32). In films one
-    /// particle thick the sum is raised towards 64, and for particles outside of the grid it is 64. Transfer source;
-    /// last written and read by compute shaders.
+    /// particle thick the sum is raised towards 64, and for particles outside of the grid it is 64. The buffer has
+    /// transfer-source usage. In `record` compute shaders write it and then read it.
     pub shapes: Option<vk::Buffer>,
     /// With [`Config::bubbles`]: a buffer, and its number of `u32` per pixel of the frame; the pixels follow row by
     /// row. A pixel's words are one for each of its layers of blobs, front to back: 256 times the blob's index in the
     /// streams plus the index of the bubble in the blob, or 0xffff_ffff for none. The pixel's last word holds the
-    /// bits of the maximum opacity of its blobs (f32). Transfer source; last written and read by compute shaders.
+    /// bits of the maximum opacity of its blobs (f32). The buffer has transfer-source usage. In `record` compute
+    /// shaders write it and then read it.
     pub bubbles: Option<(vk::Buffer, u32)>,
     /// With [`Config::bubbles`]: a buffer of five `u32`, statistics of the blobs: least and greatest eye depth at
     /// which a blob begins (the bits of two f32), number of blobs on the screen, number of invalid ones that were
     /// ignored (not finite, no radius), and total length of the tile lists
-    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute shader,
-    /// read by compute shaders.
+    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). The buffer has transfer-source usage. In `record` a
+    /// compute shader writes it, and compute shaders then read it.
     pub blobs: Option<vk::Buffer>,
 }
 
@@ -104,8 +106,9 @@ impl SmoothingLevels {
 
 /// Buffers with particle statistics, 256 bytes for each chunk (the particles that are processed at a time). Of a
 /// chunk's u32 words, word 0 is the number of small sprites, word 5 of large sprites, word 18 of particles dropped
-/// for non-finite positions, and word 19 of particles classified as spray (0 in `front`). Transfer source; last
-/// written by a compute shader, read as indirect arguments.
+/// for non-finite positions, and word 19 of particles classified as spray (0 in `front`). The buffers have
+/// transfer-source usage. In `record` a compute shader writes them, and they are then read as indirect arguments and by
+/// compute and vertex shaders.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleCounts {
     /// Particles on the screen.

@@ -37,7 +37,7 @@ pub enum EnvironmentSource {
 /// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1), plus a
 /// fitted term for multiple scattering. The single scattering is an integral, computed to an accuracy of 4 %. With
 /// the sun 35° above the horizon the sky gives a fifth of the light on level ground. Below the horizon grey ground
-/// fades in; in directions whose component along up is −0.12 or less it is complete. The sun's disc is not included.
+/// fades in; in directions whose component along up is −0.12 or less only ground is seen. The sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sky {

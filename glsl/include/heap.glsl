@@ -23,7 +23,7 @@ layout(push_constant, std430) uniform Push {
     uint blobs;
     uint buckets;      // a power of two
     float cells;       // grid cells per scene unit
-    uint max_splits;     // max number of splits of one blob; there are 2^max_splits entries for each
+    uint max_splits;     // max number of successive splits; there are 2^max_splits entries for each blob
 } push;
 
 #include "random.glsl"

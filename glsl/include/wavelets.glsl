@@ -6,11 +6,11 @@
 // second on it has all of them.
 const vec2 LEVEL_WATER = vec2(0.2, 0.7);
 // Limits between which a wave fades out. They are widths of a pixel on the water, in wavelengths of the wave: up to
-// the first limit the wave is complete, from the second on it is absent.
+// the first limit the wave has its full height, from the second on it is absent.
 const vec2 SMALL_WAVE = vec2(0.2, 0.45);
 
 // Gradient of the waves' height at a point of the world. `pixel` is the width of a pixel on the water in scene units,
-// below which waves fade out; with 0 all waves are complete.
+// below which waves fade out; with 0 all waves have their full height.
 vec3 wavelet_slope(vec3 world, float pixel) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < frame.wavelets.length(); ++i) {

@@ -148,8 +148,8 @@ impl Billboards {
     }
 
     /// Records pass `peel` by billboards for `count` blobs with the resources `bound`. `kept` are the buffer of the
-    /// pixels' layers and the image of the blobs' depth, which the pass writes; before and after it they are in the
-    /// compute-write state.
+    /// pixels' layers and the image of the blobs' depth, which the pass writes. Both must be in the compute-write
+    /// state, and are in the same state after the pass.
     pub fn record(
         &self,
         r: &Recording<'_>,

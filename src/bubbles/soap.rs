@@ -62,8 +62,8 @@ impl Soap {
         &self.image
     }
 
-    /// Records the pass. `water` has the images of the water's depth and thickness; both are in the state in which
-    /// fragment shaders sample them, before the call and after it.
+    /// Records the pass. `water` has the images of the water's depth and thickness. Both must be in the state in which
+    /// fragment shaders sample them, and are in the same state after the pass.
     pub fn record(
         &self,
         r: &Recording<'_>,

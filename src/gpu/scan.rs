@@ -58,8 +58,8 @@ impl Scan {
 
     /// Replaces values by their exclusive prefix sum. `count` is the index of the word in `counts` that holds how
     /// many of the `most` values take part, from the first on; with `None` all do. `total` is the index of the word
-    /// in `counts` that receives their sum. Before and after, both buffers are in the state in which compute shaders
-    /// use them.
+    /// in `counts` that receives their sum. Both buffers must be in the state in which compute shaders use them, and
+    /// are in the same state afterwards.
     pub fn record(
         &self,
         (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),

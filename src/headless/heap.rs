@@ -12,7 +12,7 @@ use crate::error::Error;
 impl Headless {
     /// Starts a [`BlobSimulation`] with blobs at rest. The frames that follow show the blobs as
     /// [`heap_step`](Self::heap_step) moves them. [`Config::bubbles`](crate::Config::bubbles) needs room for their
-    /// number times 2^`max_splits`, where `max_splits` is how often a blob may split.
+    /// number times 2^`max_splits` ([`BlobSimulationConfig::max_splits`]).
     ///
     /// # Errors
     /// Those of [`BlobSimulation::new`] and [`BlobSimulation::record_set`]. After an error there is no simulation.

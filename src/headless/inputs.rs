@@ -178,8 +178,8 @@ impl WhitewaterParts<'_> {
     /// Uploads the next particles. The slices need not outlive the call.
     ///
     /// # Errors
-    /// Attributes of different lengths, other attributes than in the previous part, no memory, or more whitewater
-    /// particles than announced by `whitewater_parts`. After an error this part is ignored.
+    /// An attribute that is not as long as the positions; other attributes than in the previous part; no memory; or
+    /// more whitewater particles than announced by `whitewater_parts`. After an error this part is ignored.
     pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {

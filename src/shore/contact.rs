@@ -28,8 +28,8 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// Records pass `contact`. Before and after it, the images of the water's depth, unsmoothed and smoothed, are
-    /// in the fragment-sampled state.
+    /// Records pass `contact`. The images of the water's depth, unsmoothed and smoothed, must be in the
+    /// fragment-sampled state, and are in the same state after the pass.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

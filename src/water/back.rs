@@ -102,8 +102,8 @@ impl Back {
         Ok(())
     }
 
-    /// Records pass `back`. Before and after it, the smoothing resources in `into` are in the state in which pass
-    /// `level` leaves them.
+    /// Records pass `back`. The smoothing resources in `into` must be in the state in which pass `level` leaves them,
+    /// and are in the same state after pass `back`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -178,12 +178,13 @@ impl Classify {
         ROW * u64::from(self.parts.all())
     }
 
-    /// Returns the hash table that holds the foam state after an odd (`odd`) or an even number of steps.
+    /// Returns the hash table that holds the foam state after an odd number of steps (if `odd` is true) or after an
+    /// even number.
     pub fn table(&self, odd: bool) -> &Buffer {
         &self.tables[usize::from(odd)]
     }
 
-    /// Clears the table that holds the state.
+    /// Clears `table(odd)`, which holds the state.
     pub fn record_clear(&self, gpu: &Gpu, cmd: vk::CommandBuffer, odd: bool) {
         let table = self.table(odd).handle;
         gpu.barriers(cmd, &[], &[buffer(table, COMPUTE_READ_WRITE.and(COPY_READ), CLEAR)]);
@@ -213,8 +214,8 @@ impl Classify {
         gpu.barriers(cmd, &[], &[buffer(table, used, COMPUTE_READ_WRITE)]);
     }
 
-    /// Records one step: reads the hash table that holds the state (`odd` as in [`table`](Self::table)), and writes
-    /// the new state to the other table.
+    /// Records one step: reads the state from `table(odd)` and writes the new state to the other table. `odd` tells
+    /// whether the number of steps before this one is odd.
     pub fn record(
         &self,
         gpu: &Gpu,

@@ -230,8 +230,8 @@ impl Level {
         })
     }
 
-    /// Records the pass `level`. Before and after it, both smoothing images and the plan (iteration count and step of
-    /// each pixel) are in the state in which `reduce` wrote them.
+    /// Records the pass `level`. Both smoothing images and the plan (iteration count and step of each pixel) must be in
+    /// the state in which pass `reduce` leaves them, and are in the same state after pass `level`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

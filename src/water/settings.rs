@@ -816,9 +816,10 @@ pub struct SpraySettings {
     /// thesis. Of several droplets each has a random half-axis, 0.36 to 2 times this and on average 0.6 of it; on a
     /// particle that is only spray they are 1.8 times as large.
     pub size: f32,
-    /// Maximum half-axis of one of several droplets relative to its distance from the camera plane, (0, 1], default 1:
-    /// no limit, because droplets that near are not drawn. A smaller value keeps droplets of particles that fly past
-    /// the eye from being seen as balls.
+    /// Maximum half-axis of a droplet (without its motion blur), as a multiple of its distance from the camera plane,
+    /// (0, 1]. Larger droplets are reduced to this size. The default 1 reduces none, because a droplet is not drawn if
+    /// its half-axis is more than half of this distance. With a smaller value, droplets of particles that fly past the
+    /// eye do not look like balls. No effect if [`droplets`](Self::droplets) is 1, and none on mist.
     pub max_angle: f32,
     /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has
     /// a random fraction of them, between a fifth and all, chosen by its id. A particle that is more than three
@@ -829,8 +830,9 @@ pub struct SpraySettings {
     /// Fraction of the rest density below which a particle is only spray, [0, ∞), default 0.6: lines of particles
     /// (0.48 with the usual cubic spline) are spray.
     pub all_spray_density: f32,
-    /// Fraction of the rest density at and above which a particle's water has the full radius and its foam is
-    /// complete, at least `all_spray_density`, default 0.7.
+    /// Fraction of the rest density at and above which a particle's water has its full radius and its surface foam is
+    /// not reduced, at least `all_spray_density`, default 0.7. Down to `all_spray_density` the radius falls to half and
+    /// the foam to nothing.
     pub full_water_density: f32,
     /// Fraction of the rest density at and above which a particle has no spray, at least `all_spray_density`, default
     /// 0.85. (With the defaults a particle in a single sheet of particles, which has 0.70, is about two thirds

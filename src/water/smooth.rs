@@ -138,8 +138,8 @@ impl Smooth {
         Ok(())
     }
 
-    /// Records the smoothing. Before it, both images are in the state in which `reduce` leaves them (layout GENERAL);
-    /// after it, fragment shaders can sample `a`.
+    /// Records the smoothing. Both images must be in the state in which `reduce` leaves them (layout GENERAL). After
+    /// the pass, fragment shaders can sample `a`.
     pub fn record(&self, r: &mut Recording<'_>, work: &Work<'_>) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
         match &self.form {

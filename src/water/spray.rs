@@ -129,8 +129,8 @@ impl Spray {
     }
 
     /// Records the pass. `shapes` are the shapes of the particles' spray, from pass `shape`; without them spray forms
-    /// balls. `list` is the list of `cull`, whose counts are read. `depth` is the water's depth image; the pass
-    /// leaves it in the state in which it found it, that of pass `depth`.
+    /// balls. `list` is the list of `cull`, whose counts are read. `depth` is the water's depth image. It must
+    /// be in the state in which pass `depth` leaves it, and is in the same state after pass `spray`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

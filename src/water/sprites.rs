@@ -102,8 +102,8 @@ impl Sprites {
     }
 
     /// Records the dispatches, one per chunk, that list the sprites. `list` is the list of pass `cull`, whose counts
-    /// are read; it is in the state [`LIST_USE`] before and after. `own` and `push` have the meaning that they have
-    /// in [`Over::record`].
+    /// are read; it must be in the state [`LIST_USE`], and is in the same state afterwards. `own` and `push` have the
+    /// meaning that they have in [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,

@@ -125,11 +125,12 @@ pub enum Submerged {
     },
 }
 
-/// Maximum distance between an occluder and the point that it occludes.
+/// Depth difference between an occluder and a point behind it at which the occlusion of the point has fallen to 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum OcclusionReach {
-    /// Maximum distance, in radii of the sphere in which occluders are searched, (0, ∞), default 1.
+    /// Multiple of the radius of the occlusion sphere ([`WhitewaterSettings::search_radius`]), which differs from pass
+    /// to pass, (0, ∞), default 1.
     Radii(f32),
     /// In scene units, (0, ∞); the paper: 5 metres.
     Metres(f32),
@@ -177,7 +178,8 @@ pub struct WhitewaterSettings {
     pub min_samples: u32,
     /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
     pub max_samples: u32,
-    /// Maximum distance between an occluder and the point behind it (AO_MaxOcclDist).
+    /// Depth difference between an occluder and a point behind it at which the occlusion has fallen to 0
+    /// (AO_MaxOcclDist).
     #[cfg(feature = "diagnostics")]
     pub reach: OcclusionReach,
     #[cfg(not(feature = "diagnostics"))]

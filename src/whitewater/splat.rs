@@ -205,8 +205,8 @@ impl Sprites {
         }
     }
 
-    /// Records pass `splat`. `water` is the depth image of the water's frontmost spheres; before and after, it is in
-    /// the state in which pass `depth` leaves it.
+    /// Records pass `splat`. `water` is the depth image of the water's frontmost spheres. It must be in the state in
+    /// which pass `depth` leaves it, and is in the same state after pass `splat`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

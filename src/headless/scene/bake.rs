@@ -22,7 +22,7 @@ pub struct Vertex {
     /// Mean albedo of what the vertex sees over its hemisphere, weighted by the cosine; the sky counts as 0.
     pub around: [f32; 3],
     /// Distance, in scene units, by which the smooth surface that the facets approximate lies outside them. At
-    /// vertices of the backdrop instead: visible fraction of the sun's disc, 0 to 1.
+    /// vertices of the backdrop instead: fraction of the sun's disc that the backdrop does not hide, 0 to 1.
     pub bulge: f32,
 }
 

@@ -40,9 +40,10 @@ pub struct Scene {
     /// Time of the frame in seconds, which moves the sea.
     pub time: f64,
     /// Distant opaque meshes around the scene: lawns, hedges, trees, a room's walls. They are lit by sun and
-    /// sky at their vertices, without subdivision; a few rays per vertex find how much of the sky and the sun
-    /// is visible there. They cast no shadow on [`meshes`](Self::meshes) or water and reflect no light to them.
-    /// [`bounds`](Self::bounds), shadow map and ground ignore them. They are static.
+    /// sky at their vertices, without subdivision. Rays from each vertex find how much of the sky and the sun is
+    /// visible there: 64 to the sky near [`meshes`](Self::meshes), few farther away, none very far away. The backdrop
+    /// casts no shadow on meshes or water and reflects no light to them.
+    /// [`bounds`](Self::bounds), shadow map and ground ignore it. It is static.
     pub backdrop: Vec<Mesh>,
     /// Distance over which air reduces the contrast of [`ground`](Self::ground), [`backdrop`](Self::backdrop) and
     /// [`sea`](Self::sea) to 1/e, towards the environment's colour at the horizon; in a scene with a sea of water,

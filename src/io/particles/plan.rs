@@ -63,7 +63,8 @@ pub(super) struct Plan<'a> {
     format: Format,
     /// Max number of bytes that all tracks together may decompress to.
     limit: u64,
-    /// Time of the requested frame, if each particle has a time; only particles with this time are read.
+    /// Time of the requested frame, if the file has a column with the time of each particle. Particles of other times
+    /// are left out. `None`: all particles are kept.
     only: Option<f64>,
 }
 

@@ -9,14 +9,15 @@ use super::{Particles, WriteFormat};
 
 /// Writes one file.
 ///
-/// Writes positions and the other present attributes under the names `velocity` (in PLY `vx`, `vy`, `vz`),
-/// `density`, `id`, `lifetime` and `type`, so that [`read`](super::read) returns the same particles. The file
-/// is written under a temporary name in the same folder and then renamed, so an incomplete file never has the
-/// final name.
+/// Writes positions and, where present, velocities, densities, ids, lifetimes and kinds under the names `velocity` (in
+/// PLY `vx`, `vy`, `vz`), `density`, `id`, `lifetime` and `type`, by which [`read`](super::read) finds them again.
+/// [`extras`](Particles::extras), [`time`](Particles::time) and [`origin`](Particles::origin) are not written. The file
+/// is written under a temporary name in the same folder and then renamed, so an incomplete file never has the final
+/// name.
 ///
 /// # Errors
-/// Vectors of different lengths; for BGEO, an id, a kind or a number of particles above 2^31 - 1; and errors of the
-/// system.
+/// A list (velocities, densities, ids, lifetimes or kinds) that is not as long as the list of positions; for BGEO, an
+/// id, a kind or a number of particles above 2^31 - 1; and errors of the operating system.
 pub fn write(path: &Path, particles: &Particles, format: WriteFormat) -> Result<(), WriteError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     // Checked before a file is created.

@@ -213,7 +213,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f32>,
     /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin if the water stands against
-    /// two sides of a box, otherwise the ground]
+    /// at least two sides of its bounding box, otherwise the ground]
     ///
     /// A .json scene is made of boxes, cylinders, tubes and spheres, for example
     /// {"ground": {"y": 0, "material": "paving"},
@@ -338,14 +338,16 @@ pub struct DrawArgs {
     /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
-    /// Direction to the sun [default: for the sky, high and to one side, or -0.7,0.55,-0.35 with --scene and
-    /// without --set; for a file, its brightest spot]
+    /// Direction to the sun [default: that of the brightest spot of the --environment file; with the sky, high and to
+    /// one side of the view, -0.7,0.55,-0.35 with --scene and without --set, fixed with --bubbles and --shore]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
     ///
-    /// 'debug_view' adds four composites of only the farther layers: up to and including background, back_water,
-    /// surface_foam and front_water. motion.X and motion.Y are the motion vectors since the previous frame, in
+    /// 'all' means all layers except debug_view, for which the frame is drawn four more times. debug_view consists of
+    /// four pictures. Each adds a part to the one before: background is the refracted scene, back_water adds the water
+    /// behind the frontmost foam, surface_foam the foam, front_water the water in front of it. Reflections, highlights
+    /// and spray are in none of them. motion.X and motion.Y are the motion vectors since the previous frame, in
     /// pixels, x to the right, y down. They are 0 in the first frame of a sequence. Where the scene is visible, they
     /// hold only the camera's motion.
     #[arg(long, value_name = "NAMES", default_value = "all")]

@@ -122,7 +122,7 @@ pub struct Blobs {
     pub motion: Option<Motion>,
 }
 
-/// Physics of the blobs: settings, obstacles, and how often they may split.
+/// Physics of the blobs: settings, obstacles, and the maximum number of successive splits.
 pub struct Motion {
     pub settings: BlobSimulationSettings,
     pub solids: Vec<Solid>,

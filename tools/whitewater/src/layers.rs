@@ -47,7 +47,7 @@ const GROUPS: [&str; 30] = [
 /// pixel.
 pub const MOTION: &str = "motion";
 
-/// Debug views: composites of only the farther layers, three channels each.
+/// Debug views: unfinished composites, in each of which a further part of the picture is drawn; three channels each.
 pub const DEBUG_VIEW: &str = "debug_view";
 
 const VIEWS: [(&str, DebugView); 4] = [
