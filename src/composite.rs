@@ -205,8 +205,9 @@ impl Composite {
         }
     }
 
-    /// Records pass `composite`. All layers must be in the state in which fragment shaders sample them; compute shaders
-    /// can also sample the layers of `whitewater` and `bubbles`. After the pass the layers are in the same state.
+    /// Records pass `composite`. The images in `layers` must be in the state in which fragment shaders sample them, the
+    /// layers of `whitewater`, `bubbles` and `shore` in the state in which fragment and compute shaders do. After the
+    /// pass all are in the same state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -166,13 +166,13 @@ pub struct Environment {
     pub cube: Image,
     faces: Owned<vk::ImageView>,
     /// The cube without the sun, and a view of its faces, for [`Irradiance::Sampled`]. Only its first mip is sampled.
-    /// It has the others because SwiftShader fills the seams of a cube map when mips are blitted, but not when a
-    /// compute shader writes the cube.
+    /// It has the others because SwiftShader fills the seams of a cube map (the texels around each face, which filters
+    /// read at its edges) when mips are blitted, but not when a compute shader writes the cube.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
     /// Whether the host gave a separate picture without the sun for the environment that was recorded last.
     apart: bool,
-    /// View of the cube for look-ups at explicit mip levels. The last mip is left out: SwiftShader never writes its
-    /// seams, but filters across them.
+    /// View of the cube for look-ups at explicit mip levels. It has all mips but the last: SwiftShader never fills the
+    /// seams of that mip (the texels around each face), but reads them when it filters at a face's edges.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,

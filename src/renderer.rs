@@ -432,8 +432,9 @@ impl Renderer {
         }
     }
 
-    /// Reports that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure` replaced, if no
-    /// frame in flight uses them any more. Call it after waiting for the slot at the beginning of a frame.
+    /// Tells the renderer that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure`
+    /// replaced, if no frame in flight uses them any more. Call it after waiting for the slot at the beginning of a
+    /// frame.
     ///
     /// `collect` has no parameter for a fence or a timeline value: the caller promises that the slot's GPU work has
     /// finished. The library sees no submission, so it could not associate a fence or a value with one, and an engine
@@ -450,7 +451,8 @@ impl Renderer {
         self.gpu.bury();
     }
 
-    /// Reports that the command buffer recorded last with this slot was discarded.
+    /// Tells the renderer that the command buffer recorded last with this slot was discarded instead of submitted.
+    /// Then does what [`collect`](Self::collect) does.
     ///
     /// # Safety
     /// The conditions of [`collect`](Self::collect) hold: the command buffer that was recorded last with the slot

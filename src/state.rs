@@ -15,7 +15,7 @@ use crate::water::Classify;
 
 crate::contract::with!(SurfaceFoamStateConfig);
 
-/// Configuration of a [`SurfaceFoamState`], which determines its memory.
+/// Configuration of a [`SurfaceFoamState`]. It determines how much memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SurfaceFoamStateConfig {
@@ -187,9 +187,10 @@ impl SurfaceFoamState {
         }
     }
 
-    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before it.
-    /// Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore). The call frees nothing,
-    /// so it is safe even while GPU work is pending.
+    /// Takes back the last recorded step, if it had this slot: the state is again what it was before that step. Call
+    /// it if the step's command buffer was discarded instead of submitted. Earlier steps cannot be taken back, except
+    /// by [`record_restore`](Self::record_restore). The call frees nothing, so it is safe even while GPU work is
+    /// pending.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

@@ -97,8 +97,8 @@ pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64,
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    /// Results of the passes `film`, `impostor` and `core`, computed once. A `reconfigure` takes them over from the
-    /// previous renderer if the new settings need the same.
+    /// Results of the passes `film`, `impostor` and `core`, computed once. `Renderer::reconfigure` keeps them if the
+    /// passes would give the same results with the new configuration.
     templates: Arc<Templates>,
     near: Option<near::Near>,
     lists: lists::Lists,

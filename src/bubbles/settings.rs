@@ -11,7 +11,7 @@ pub const MOST_LAYERS: u32 = 8;
 /// Maximum thickness of a film, nanometres.
 pub const MOST_FILM: f32 = 2000.0;
 
-/// Configuration of bubble foam, which determines memory and pipelines.
+/// Configuration of bubble foam. It determines what memory and which pipelines are created.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BubbleConfig {
@@ -29,14 +29,14 @@ pub struct BubbleConfig {
     pub impostor: Impostor,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) impostor: Impostor,
-    /// Side length in texels of a face of the impostor's cube map, a multiple of 4 from 8 to 512. Default 128, as
-    /// [`Impostor::map_size`] gives for the default impostor.
+    /// Side length in texels of a face of the impostor's cube map, a multiple of 4 from 8 to 512. Default 128, which
+    /// is the paper's number for the default impostor; [`Impostor::map_size`] gives it for each impostor.
     #[cfg(feature = "diagnostics")]
     pub map_size: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) map_size: u32,
-    /// Maximum number of steps in the search for the first bubble along a ray, 1 to 64. Default 10, as
-    /// [`Impostor::steps`] gives for the default impostor.
+    /// Maximum number of steps in the search for the first bubble along a ray, 1 to 64. Default 10, which is the
+    /// paper's number for the default impostor; [`Impostor::steps`] gives it for each impostor.
     #[cfg(feature = "diagnostics")]
     pub steps: u32,
     #[cfg(not(feature = "diagnostics"))]
@@ -55,7 +55,8 @@ pub struct BubbleConfig {
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) film: Film,
     /// Draws the particles of whitewater foam near the camera as blobs, at most `max_blobs` of them
-    /// ([`BubbleSettings::crossfade`] sets the distances). A frame then has no other blobs. Default false. Needs
+    /// ([`BubbleSettings::crossfade`] sets the distances). The host must then give no blobs of its own:
+    /// [`Frame::bubbles`](crate::Frame::bubbles) has to be `None`. Default false. Needs
     /// [`Config::whitewater`](crate::Config::whitewater). It takes 36 more bytes per blob and adds the pass `near`.
     pub crossfade: bool,
 }
@@ -131,7 +132,7 @@ impl Impostor {
 }
 
 /// How the nearest blobs of a pixel are found: by lists per tile, or by depth peeling. Both ways give the same
-/// picture.
+/// picture, unless so many blobs touch so many tiles that the lists are full.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum BubbleSort {
@@ -167,11 +168,11 @@ impl Default for Film {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum FilmFresnel {
-    /// The film's reflectance by Fresnel's equations for both polarisations, with Airy's sum over the reflections in
-    /// the film for each. Default.
+    /// A face reflects by Fresnel's equations, for each polarisation by itself. The film's reflectance is Airy's sum
+    /// of the reflections in the film, averaged over both polarisations. Default.
     Exact,
-    /// The film's reflectance by Schlick's approximation of Fresnel's equations, with Airy's sum over the reflections
-    /// in the film.
+    /// A face reflects by Schlick's approximation of Fresnel's equations, the same for both polarisations. The film's
+    /// reflectance is Airy's sum of the reflections in the film.
     Schlick,
     /// As in the paper: a face reflects `R = 1 − cos θ`, and the film `min(4 R sin²(φ / 2), 1)`, with φ the phase
     /// difference of the light from both faces. Unlike in print, where it is `sin² φ` with the angle outside the

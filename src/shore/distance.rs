@@ -44,7 +44,8 @@ const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
 
-/// Configuration of a [`ShoreMap`], which determines its memory: 16 bytes per texel. Made by `default()`.
+/// Configuration of a [`ShoreMap`]. It determines how much memory is allocated: 16 bytes per texel. Made by
+/// `default()`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreMapConfig {

@@ -12,7 +12,8 @@ crate::contract::with!(ShoreConfig, ShoreSettings, ShorelineSettings, ContactSet
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
-/// Configuration of shoreline and contact foam, which determines memory and pipelines. Made by `default()`.
+/// Configuration of shoreline and contact foam. It determines what memory and which pipelines are created. Made by
+/// `default()`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreConfig {

@@ -1,10 +1,11 @@
 //! Pass `cull`: turns the host's particles into the library's list of visible spheres (thesis Sec. 4.3).
 //!
 //! Drops particles with NaN or infinite positions, leaves out those of low density (they are spray), culls the rest
-//! against the frustum, and writes the survivors without gaps as eye-space spheres of 16 bytes (32 with the shape of
-//! an ellipsoid): small sprites from the front of the list, large ones from its back. The passes that draw water read
-//! only this list, by indirect draws and dispatches. Unlike in the thesis the test runs on the GPU, and if the host
-//! gives no packets (groups of particles with a bounding box) each particle is tested.
+//! against the frustum, and writes the survivors as eye-space spheres of 16 bytes (32 with the shape of an ellipsoid).
+//! Spheres whose sprite is small on the screen fill the list from the front, those whose sprite is large from the
+//! back, both without gaps. The passes that draw water read only this list, by indirect draws and dispatches. Unlike
+//! in the thesis the test runs on the GPU, and if the host gives no packets (groups of particles with a bounding box)
+//! each particle is tested.
 //!
 //! If the particles exceed the range of one storage-buffer binding they are processed in chunks, each with its own
 //! counts and its own part of the list.
@@ -166,8 +167,9 @@ pub const STREAM_USE: Access = COMPUTE_READ.and(VERTEX_READ);
 pub struct SphereList {
     /// `Counts` of every chunk.
     pub counts: Buffer,
-    /// Centre and radius of each sphere, followed by the shape of an ellipsoid (glsl/include/ellipsoid.glsl):
-    /// small sprites from the front of each chunk's part, large ones from its back.
+    /// One entry per sphere: centre and radius, and after them, only if particles are ellipsoids, the ellipsoid's
+    /// shape (glsl/include/ellipsoid.glsl). Each chunk of particles has a part of the buffer. Spheres whose sprite is
+    /// small on the screen fill it from the front, those whose sprite is large from the back.
     pub spheres: Buffer,
     /// The fraction of each visible particle that is water; the rest is foam. `None` without foam.
     pub shares: Option<Buffer>,

@@ -1,11 +1,11 @@
 //! Pass `level`: repeats pass `reduce` at coarser resolutions (levels of the smoothing), for water so near to the
-//! camera that smoothing it at the configured resolution would exceed the cap on iterations. Each pixel shows the
-//! level that its distance selects, or blends two levels.
+//! camera that smoothing it at the configured resolution would take more than `Config::max_iterations` iterations.
+//! Each pixel shows the level that its distance selects, or blends two levels.
 //!
-//! The pass `level` is not in the thesis, whose cap leaves near water rough. The next coarser level of the smoothing
-//! needs a quarter of the iterations for the same width. All levels, including those of the back layer (pass `back`),
-//! lie beside each other in the smoothing images. The tile list holds the tiles of all levels, so every form of the
-//! smoothing processes all of them in one dispatch or draw.
+//! The pass `level` is not in the thesis, where the limit on iterations leaves near water rough. The next coarser level
+//! of the smoothing needs a quarter of the iterations for the same width. All levels, including those of the back
+//! layer (pass `back`), lie beside each other in the smoothing images. The tile list holds the tiles of all levels, so
+//! every form of the smoothing processes all of them in one dispatch or draw.
 //! Reads: depth, each tile's work. Writes: marks and list of the required tiles, the coarsest required level; for
 //! those tiles both smoothing images, plan, each tile's work.
 
@@ -45,8 +45,9 @@ const FADE: f32 = 0.25;
 /// tile, no coarser level needed.
 pub const NONE_MARKED: [u32; 5] = [0, 1, 1, 0, 0];
 
-/// Number of smoothing levels of a configuration that are coarser than its first. It is 0 unless the rule is
-/// [`Rule::ConstantWidth`]: the other rules keep the thesis' cap on iterations.
+/// Number of a configuration's smoothing levels that are coarser than its first level. Only the rule
+/// [`Rule::ConstantWidth`] has such levels. With the other rules the result is 0: as in the thesis, the front layer is
+/// smoothed at the first level only, and a pixel that would need more than `max_iterations` stays rougher.
 pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }

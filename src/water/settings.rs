@@ -464,9 +464,9 @@ impl Medium {
     /// cosine g; red, green and blue of a camera). Amber in a glass, black a metre deep. Index of refraction 1.345.
     pub const BEER: Self = Self::turbid([11.5, 24.9, 57.8], [0.0244, 0.0241, 0.0106]);
     /// Honey, amber: a solution of half a gram per millilitre has an absorbance of 0.5 per centimetre at 450 nm
-    /// (Beretta et al., Analytica Chimica Acta 533, 2005, found 0.03 to 3.4), scaled to undiluted honey. Absorption
-    /// falls by a factor of e per 82 nm. This slope is an estimate: it is the slope of beer, whose colour comes from
-    /// the same reaction of sugars. No scattering. Index of refraction 1.49.
+    /// (Beretta et al., Analytica Chimica Acta 533, 2005, found 0.03 to 3.4), scaled to undiluted honey. With growing
+    /// wavelength λ absorption falls as `exp(-λ / 82 nm)`. This slope is an estimate: it is the slope of beer, whose
+    /// colour comes from the same reaction of sugars. No scattering. Index of refraction 1.49.
     pub const HONEY: Self = Self::turbid([45.8, 95.2, 268.0], [0.0; 3]);
     /// Blood with oxygen: absorption of 150 g/l of haemoglobin by Prahl's table of its molar extinction, reduced
     /// scattering `2200 (λ/500 nm)^-0.66` per metre (Jacques, Phys. Med. Biol. 58, 2013, Table 1). Index of
@@ -492,8 +492,9 @@ impl Medium {
         Self::Source { base: [0.306, 0.545, 0.957], falloff: [0.784 * k, 0.784 * k, 0.588 * k, k] }
     }
 
-    /// The medium with absorption and scattering (of [`Medium::Source`] its falloffs) multiplied by `share`, [0, ∞).
-    /// 0.1 is a tenfold dilution, or a scene ten times as large as the object it shows. Emission stays.
+    /// The medium with absorption and scattering multiplied by `share`, [0, ∞). [`Medium::Source`] has neither; its
+    /// falloffs are multiplied instead. A share of 0.1 dilutes the medium tenfold. It also gives the right look to a
+    /// scene that is ten times as large as the object that it shows. Emission stays.
     pub fn thinned(self, share: f32) -> Self {
         let times = |k: [f32; 3]| k.map(|k| share * k);
         match self {
@@ -693,12 +694,12 @@ pub struct SurfaceFoamSettings {
     /// spacing. It is less than [`extinction`](Self::extinction), because most of the light that foam scatters
     /// continues forwards.
     pub shadow: f32,
-    /// Two sums [a, b] of the neighbours' weights (see [`Ellipsoids`]): a particle with a sum up to a has no foam,
-    /// one with b or more keeps all of its foam. Each is in [0, 64], b at least a. Default [0, 0]: off. Without this,
-    /// foam on a few particles that fly together looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a
-    /// particle in a flat surface has a sum of about 21; the sums grow about with the cube of the reach. Particles in
-    /// flat films that are one particle thick are exempt. No effect without [`Kernels::Ellipsoids`]. Not in the
-    /// thesis.
+    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids`]). A particle whose sum is at
+    /// most a has no foam, one whose sum is at least b keeps all of its foam, and in between it keeps a part. Each
+    /// limit is in [0, 64], b at least a. Default [0, 0]: off. Without the limits, foam on a few particles that fly
+    /// together looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a particle in a flat surface has a sum of
+    /// about 21; sums grow about with the cube of the reach. The limits do not apply to particles in flat films that
+    /// are one particle thick. No effect without [`Kernels::Ellipsoids`]. Not in the thesis.
     pub few_neighbours: [f32; 2],
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends a
     /// grey of 0.25 over its picture.)
@@ -867,12 +868,14 @@ pub struct SpraySettings {
     /// ellipsoid of its water is, so that torn water is strands and sheets of droplets, and groups of two or three
     /// particles have no mist. No effect without [`Kernels::Ellipsoids`].
     pub strand_ratio: f32,
-    /// Two sums [a, b] of the neighbours' weights (see [`Ellipsoids`]): a particle with a sum up to a is only spray,
-    /// whatever its density, because many solvers write the rest density for a lone drop too. With b or more, its
-    /// density alone decides. Each is in [0, 64], b at least a. Default [0, 0]: off. With an [`Ellipsoids::reach`] of
-    /// 2.5 eight particles close together have a sum of about 6, particles of an uneven sheet 11; the sums grow about
-    /// with the cube of the reach. Particles in flat films that are one particle thick are exempt, and so are
-    /// particles with a density of 0. No effect without [`Kernels::Ellipsoids`] and `Particles::densities`.
+    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids`]). A particle whose sum is at
+    /// most a is only spray, whatever its density, because many solvers write the rest density for a lone drop too.
+    /// If the sum is at least b, the density alone decides; in between the transition is gradual. Each limit is in
+    /// [0, 64], b at least a. Default [0, 0]: off. With an [`Ellipsoids::reach`] of 2.5 each of eight particles close
+    /// together has a sum of about 6, and a particle in an uneven sheet has 11; sums grow about with the cube of the
+    /// reach. The limits do not apply to particles in flat films that are one particle thick. Nor do they apply to
+    /// particles whose density is 0, that is, not known yet: these are water. No effect without
+    /// [`Kernels::Ellipsoids`] and `Particles::densities`.
     pub few_neighbours: [f32; 2],
     /// Exposure time, by which each droplet becomes a streak along its motion, seconds, [0, 1], default 1/250. A
     /// longer streak is more transparent. (The water itself is drawn at one instant.)
@@ -1001,8 +1004,8 @@ pub struct SurfaceNoiseSettings {
     /// Height that a noise value of 1 adds to the water's surface, in drawn radii, [0, 16], default 0.336, 0 = flat.
     /// (The publication gives this number as the weight of the noise's derivatives, in a unit of its own.)
     pub weight: f32,
-    /// How fast a particle's noise fades with the particle's depth below the surface, [0, 64], default 2: by a factor
-    /// of e per `drawn radius / falloff`.
+    /// How fast a particle's noise fades with the particle's depth below the surface: if the front of the particle is
+    /// `drawn radius / falloff` below it, the noise has 1/e of its strength. [0, 64], default 2; 0 means no fading.
     pub falloff: f32,
     /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
     pub size: f32,
@@ -1011,7 +1014,7 @@ pub struct SurfaceNoiseSettings {
     /// How much less height there is where the water lies on the scene, so that the scene behind is under water, [0, 1],
     /// default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the noise, because a
     /// solver's particles are coarsest there: a pool keeps the simulated waves alone. No effect with
-    /// [`Bed::Source`].
+    /// `Bed::Source`.
     pub airborne: f32,
     /// Amount of the publication's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's
     /// magnitude. An amount of 1 or more is full foam. [0, 64], default 0: no such foam.
@@ -1048,8 +1051,8 @@ impl SurfaceNoiseSettings {
     };
 
     #[cfg(feature = "diagnostics")]
-    /// Noise on all water, with the publication's foam. The paper gives no strength of this foam; a strength `foam` of
-    /// 1 makes it visible.
+    /// Noise on all water, in the air or not, with the publication's foam. `foam`, the strength of that foam, is 1
+    /// here: the paper gives no number, and with 1 the foam is visible.
     pub const SOURCE: Self = Self {
         weight: 0.336,
         falloff: 2.0,

@@ -5,7 +5,7 @@ use crate::water::settings::range;
 
 crate::contract::with!(WhitewaterConfig, WhitewaterSettings);
 
-/// Configuration of whitewater, which determines memory and pipelines.
+/// Configuration of whitewater. It determines what memory and which pipelines are created.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WhitewaterConfig {
@@ -64,8 +64,8 @@ impl WhitewaterConfig {
     }
 }
 
-/// How whitewater particles are rasterized. All paths give the same picture. Those of the two compute paths are equal
-/// to the last bit.
+/// How whitewater particles are rasterized. All paths give the same picture, and the two compute paths even give the
+/// same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum WhitewaterSplat {
@@ -79,7 +79,8 @@ pub enum WhitewaterSplat {
     Compute64,
 }
 
-/// How ambient occlusion of foam by foam, water and scene is sampled (Sec. 2.4.1).
+/// How the ambient occlusion of foam is sampled (Sec. 2.4.1). Foam is occluded by other foam, by water and by the
+/// scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Occlusion {

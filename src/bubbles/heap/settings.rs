@@ -203,7 +203,7 @@ impl Solid {
     }
 }
 
-/// Configuration of a [`BlobSimulation`](super::BlobSimulation), which determines its memory.
+/// Configuration of a [`BlobSimulation`](super::BlobSimulation). It determines how much memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BlobSimulationConfig {

@@ -149,8 +149,9 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Material.
     pub material: Material,
-    /// Transform to world space. Procedural patterns are laid out in the mesh's own frame if the mesh is
-    /// rotated, otherwise in world space, so that they continue from one mesh to the next.
+    /// Transform to world space. If the mesh is rotated, its procedural pattern is laid out in the mesh's own frame,
+    /// turned and moved with it. The patterns of meshes that are not rotated are laid out in world space, so they
+    /// continue from one such mesh to the next.
     pub transform: Mat4,
 }
 

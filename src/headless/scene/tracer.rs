@@ -327,7 +327,9 @@ impl Around {
         }
     }
 
-    /// Bakes the light of the vertices. Vertices inside a solid stay dark, like leaves between two bushes.
+    /// Bakes the light of the backdrop's vertices: the visible fractions of sky and sun, the light bounced by other
+    /// surfaces, and their albedo. Here, unlike in `Tracer::light`, a vertex inside a solid does not take the light of
+    /// its neighbours but stays dark: leaves deep inside a bush are dark, too.
     pub fn light(&self, vertices: &mut [Vertex]) {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = vertices.len().div_ceil(threads).max(1);

@@ -114,8 +114,8 @@ impl std::fmt::Display for Attribute {
 pub(super) enum Data {
     F32(Vec<f32>),
     F64(Vec<f64>),
-    /// Integers of any width. Unsigned 64-bit values above `i64::MAX` are clamped to it;
-    /// [`to_ids`](Self::to_ids) refuses ids of that size.
+    /// Integers of any width. Unsigned 64-bit values above `i64::MAX` are clamped to it, so
+    /// [`to_ids`](Self::to_ids) refuses the id `i64::MAX`.
     Int(Vec<i64>),
 }
 

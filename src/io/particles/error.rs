@@ -6,7 +6,8 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
-    /// Byte offset from the start, from 0; in gzip files that of the decompressed content
+    /// Byte offset, from 0. It counts from the start of the file, in gzip files from the start of the decompressed
+    /// content, in NPZ files from the start of the unpacked array
     Byte(u64),
     /// Line number, from 1
     Line(u64),

@@ -230,9 +230,9 @@ impl Generator {
         }
     }
 
-    /// Reports that the last recorded step, which had this slot, was discarded instead of submitted: the state is
-    /// again that before the step. Earlier steps cannot be taken back, except by
-    /// [`record_restore`](Self::record_restore).
+    /// Takes back the last recorded step, if it had this slot: the state is again what it was before that step. Call
+    /// it if the step's command buffer was discarded instead of submitted. Earlier steps cannot be taken back, except
+    /// by [`record_restore`](Self::record_restore).
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(own) = self.slots.get_mut(slot.0 as usize) {
             own.timer.abandon();

@@ -5,7 +5,7 @@ use crate::water::settings::{GREATEST, range};
 
 crate::contract::with!(GeneratorConfig, GeneratorSettings);
 
-/// Configuration of a [`Generator`](super::Generator), which determines its memory.
+/// Configuration of a [`Generator`](super::Generator). It determines how much memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GeneratorConfig {

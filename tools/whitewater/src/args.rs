@@ -223,14 +223,14 @@ pub struct RenderArgs {
     /// frame; 'whitewater simulate bamboo' writes such a file.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene those of the scene]
+    /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene the scene's own]
     ///
-    /// If --scene is given as well, the scene stands on level ground in these surroundings, lit by their light.
     /// 'pool' is a terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a sea,
     /// 'lab' a tiled hall with lamps. Studio and lab have their own light unless --environment or --sun sets one.
-    /// With 'none' only water, foam and spray are drawn. The colours are then premultiplied by alpha. Channel A of
-    /// the EXR and the PNG is the fraction of the background that water, foam and spray hide, as the mean of red,
-    /// green and blue.
+    /// Together with --scene, each of these four sets puts the scene on level ground in its surroundings and lights
+    /// it. 'none' cannot be given together with --scene: only water, foam and spray are drawn, and the background
+    /// stays transparent. The picture's colours are then premultiplied by alpha. Alpha, channel A of the EXR and the
+    /// PNG, is the fraction of the background that water, foam and spray hide, as the mean of red, green and blue.
     #[arg(long, value_enum)]
     pub set: Option<SetArg>,
     #[command(flatten)]

@@ -207,11 +207,13 @@ impl SceneRenderer {
         gpu.bury();
     }
 
-    /// Draws the scene: clears colour and depth and fills both. The targets of the slot's previous record go to the
-    /// deletion queue, for the next `Gpu::bury`.
+    /// Clears the frame's colour and depth images and draws the scene to them. It creates framebuffers for that. Those
+    /// of the slot's previous record go to the deletion queue, which the next `Gpu::bury` empties. So do the slot's
+    /// multisampled images, but only if the size of the frame has changed; otherwise they are used again.
     ///
     /// # Errors
-    /// A camera that cannot be drawn, no memory; Vulkan errors.
+    /// A camera that cannot be drawn, a slot that does not exist, colour and depth images of different sizes, no
+    /// memory; Vulkan errors.
     pub fn record(
         &mut self,
         gpu: &Gpu,
