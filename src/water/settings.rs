@@ -662,8 +662,7 @@ pub struct SurfaceFoamSettings {
     /// the thesis.
     pub lace: f32,
     /// Size of the cells that contain the largest holes of the lace, spacings, (0, 1e3], default 4. Lace fades out
-    /// where these cells become smaller than six pixels, and is gone at two: in the geometric mean of a cell's
-    /// length and width in the picture.
+    /// where these cells become smaller than six pixels, and is gone at two.
     pub lace_size: f32,
     /// How strongly the lace shades foam, [0, 2], default 0: threads are brighter, up to a factor of 1.2, and holes
     /// darker, down to a factor of 0.5. The shading also shows on thick foam, whose holes are closed. No effect if
