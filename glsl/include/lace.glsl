@@ -30,7 +30,7 @@ const float CLOSES = 0.22;
 // coverage over the pattern differs from c by at most 0.02.
 const vec2 COVERS = vec2(0.33, 0.127);
 // Half the range of amounts of foam over which the edge of a thread fades: max(THREAD_ENDS.x, THREAD_ENDS.y w), where
-// w is the length of a pixel's footprint in cells of the large bubbles.
+// w is the width of a pixel in cells of the large bubbles.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 // One half of a thread's opacity fades at the thread's edge over a wider range of amounts of foam than the other
 // half, as foam of single bubbles does. This is the min half-width of that range.
@@ -114,13 +114,12 @@ vec3 drift_at(vec2 pixel) {
 }
 
 // Coverage of a pixel by threads, where smooth foam would have the coverage `hidden`. `place` is the pixel's point in
-// cells of the large bubbles, which are `pixels` wide (the mean of both directions on the surface) and `narrow` pixels
-// wide in the direction of its slope; the foam moves by `way` cells in half a period. Two phases are
+// cells of the large bubbles, which are `pixels` wide; the foam moves by `way` cells in half a period. Two phases are
 // blended as in pattern.glsl. `pore` becomes the amount of foam that closes the point, less its median: it is above 0
 // in holes, and also tells where they were once foam has closed them.
-float laced(float hidden, vec3 place, vec3 way, float pixels, float narrow, out float pore) {
+float laced(float hidden, vec3 place, vec3 way, float pixels, out float pore) {
     float much = COVERS.x + COVERS.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
-    float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / narrow);
+    float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);
     float closes = CLOSES;
     for (int i = 0; i < 2; ++i) {
         float part = frame.foam_phases[i];

@@ -450,36 +450,18 @@ float foam_middle(FoamTexels foam) {
 // Range of the factor by which lace brightens its threads and darkens its holes.
 const vec2 LACE_LIGHT = vec2(0.5, 1.2);
 
-// Lace lies on the water's surface where the middle of the foam is at most LYING.x spacings from it, and at the foam's
-// own depth from LYING.y on. That depth is one of spheres: at a grazing angle the pattern would slide down each of
-// their sides, in steps.
-const vec2 LYING = vec2(8.0, 16.0);
-// Limit of the ratio of the two sides of a pixel's footprint on the surface.
-const float MOST_STRETCHED = 8.0;
-
-// x: eye depth at which the lace of a pixel lies. y: length of the pixel's footprint there along the slope, relative to
-// its width across. `z`: depth of the foam's middle. `surface`: depth of the water's surface and its slope per pixel.
-vec2 lying(float z, vec3 surface) {
-    float on = 1.0 - smoothstep(LYING.x, LYING.y, abs(surface.x - z) / frame.particle.y);
-    z = mix(z, surface.x, on);
-    float wide = z * frame.texel.x;
-    return vec2(z, min(length(vec2(wide, on * length(surface.yz))) / wide, MOST_STRETCHED));
-}
-
 // Transmittance of foam with the lace pattern. `kept` is the transmittance of smooth foam; the mean over the pattern
 // is close to it. Foam stays smooth where the largest cells of the pattern are less than two pixels wide. `much`
 // becomes the density relative to smooth foam, which is more than 1 in a thread and less than 1 in a hole. `light`
 // becomes the factor on the foam's colour, so that dense foam, which has no holes, still shows its bubbles.
-float through_lace(vec2 pixel, vec2 lying, float kept, out float much, out float light) {
-    float z = lying.x;
+float through_lace(vec2 pixel, float z, float kept, out float much, out float light) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
-    float across = frame.foam_pattern.z / (z * frame.texel.x);
-    float pixels = across * inversesqrt(lying.y);
+    float pixels = frame.foam_pattern.z / (z * frame.texel.x);
     float told = frame.foam_pattern.y * smoothstep(2.0, 6.0, pixels);
     vec3 way = drift_at(pixel) * (frame.foam_pattern.w / frame.foam_pattern.z);
     float pore;
-    float covered = laced(1.0 - kept, at, way, pixels, across / lying.y, pore);
+    float covered = laced(1.0 - kept, at, way, pixels, pore);
     light = clamp(1.0 - frame.foam_lace.x * told * pore, LACE_LIGHT.x, LACE_LIGHT.y);
     much = mix(1.0, covered / max(1.0 - kept, 0.05), told);
     return 1.0 - mix(1.0 - kept, covered, told);
@@ -533,7 +515,7 @@ vec2 shape_light(vec2 pixel, float z) {
 // swaps the two colours). Each sprite of foam has the visibility of the sun at its centre, and the pixel takes the
 // mean over the sprites of the front layer. (The thesis evaluates the visibility at the mean of nine depths.) A
 // shadow with an edge inside a sprite would show the sprite's outline.
-Foam foam_of(vec2 pixel, FoamTexels texels, vec3 surface, bool dry) {
+Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
     vec4 t = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -561,7 +543,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, vec3 surface, bool dry) {
     float aerated = frame.foam_aerated.w * (1.0 - foam.kept);
     bool torn = frame.foam_pattern.y > 0.0 && there;
     while (torn) {
-        foam.kept = through_lace(pixel, lying(z, surface), foam.kept, local, light);
+        foam.kept = through_lace(pixel, z, foam.kept, local, light);
         torn = false;
     }
     // `middle`: distance of the foam's middle behind the frontmost foam. `far / (1 − far)` is this distance in
@@ -701,9 +683,6 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         fading = false;
     }
 
-    // Depth and slope of the surfaces on which the foam of the front sheet and of the back sheet floats.
-    vec3 floats = vec3(surface.z, surface.dz);
-    vec3 floats_behind = floats;
     Sheet back = NO_SHEET;
     float beyond = 0.0; // depth of the back sheet
     float boundary = SHEETS == 2u ? boundary_at(ivec2(pixel)) : EMPTY;
@@ -729,7 +708,6 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             other = towards(other, next, fade);
             fading = false;
         }
-        floats_behind = vec3(other.z, other.dz);
         if (covers) {
             // Where the air between the two sheets (layers of water) is thinner than four spacings they become one
             // gradually, so that the coarse cells from which their boundary is found do not show.
@@ -759,9 +737,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     bool past = false;
     bool behind_boundary = false;
     if (FOAM == 1u) {
-        FoamTexels texels = foam_seen(pixel);
-        behind_boundary = texels.depth >= boundary;
-        foam = foam_of(pixel, texels, behind_boundary ? floats_behind : floats, front >= EMPTY);
+        foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
+        behind_boundary = foam.depth >= boundary;
         // `past`: the pixel lies between the spheres of the front sheet (the nearer layer of water) and shows the
         // back sheet. Of the front sheet only the foam is then drawn, with the water in this foam. With SHEETS = 1
         // `past` is false at compile time, so a CPU driver skips the code that depends on it.

@@ -2,14 +2,11 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Bed, DebugView, Exit, Fresnel, Medium, Shading};
+use whitewater::water::{DebugView, Fresnel, Medium, Shading};
 
-use super::{Foamy, foaming, of, wide};
-use crate::composite::twin_settings;
-use crate::reference::composite::Inputs;
-use crate::reference::surface::{Case, Surfaces};
-use crate::reference::surface_foam::{self, Lying, Pattern, Phase};
-use crate::reference::{Image, is_surface, smoothstep};
+use super::{Foamy, foaming, of};
+use crate::reference::surface_foam::{self, Pattern, Phase};
+use crate::reference::{is_surface, smoothstep};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens};
@@ -165,8 +162,7 @@ fn thin_foam_is_torn_into_lace() {
                     let hidden = 1.0 - (-4.0 * t * long).exp();
                     let at = to_world.transform_point3(ray * z) / cell;
                     let pixels = cell / (view.slope_step().x * z).abs();
-                    let covered =
-                        surface_foam::covered(hidden, at, (drift, &phases), (pixels, pixels));
+                    let covered = surface_foam::covered(hidden, at, (drift, &phases), pixels);
                     let told = 0.8 * smoothstep(2.0, 6.0, pixels);
                     threads += usize::from(covered > 0.95 && hidden < 0.7);
                     holes += usize::from(covered < 0.05 && hidden > 0.3);
@@ -174,7 +170,7 @@ fn thin_foam_is_torn_into_lace() {
                     let back = (-5.0 * front * long * much).exp();
                     let seen = hidden + told * (covered - hidden);
                     let origin = to_world.w_axis.truncate().length() / cell;
-                    let closed = told * closing_error((at, origin), &phases, pixels, 0.0);
+                    let closed = told * closing_error((at, origin), &phases, pixels);
                     for c in 0..3 {
                         let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                         let foam = thick + (thin - thick) * back;
@@ -207,20 +203,15 @@ fn thin_foam_is_torn_into_lace() {
 }
 
 /// Bound of the error of a pixel's coverage by lace, from rounding, at a point in cells of the pattern; `origin`: the
-/// camera's distance from the world's origin, in cells; `dragged`: further error of the point, in cells.
-fn closing_error(
-    (at, origin): (DVec3, f64),
-    phases: &[Phase; 2],
-    pixels: f64,
-    dragged: f64,
-) -> f64 {
+/// camera's distance from the world's origin, in cells.
+fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
     // A position errs by 16u of its distance from the origin in cells, and by 5u of the phase's offset. The gradient
     // of `closes` is at most `steepest`, the product of three factors: 2 * 2 r / r^2 for a bubble, the sum of weight /
     // width over the three sizes of bubbles, and 1 + 0.3 * 27 / 2.6 for the displacement by the noise. A smoothstep is
     // at most 1.5 / width steep; here the width is twice `ends`.
     let steepest = 5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
     let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
-    let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length())) + dragged;
+    let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
     (place * steepest + 32.0 * U) * 0.75 / surface_foam::ends(pixels)
 }
 
@@ -232,20 +223,6 @@ fn check_lace(
     drawn: &Drawn,
     foam: impl Fn(usize, usize) -> Option<DVec3>,
 ) -> usize {
-    // A particle with little foam is also drawn as water, in the middle of its foam.
-    let dry = |x, y, z| (drawn.depth.at(x, y) >= 1e9).then(|| Lying::alone(z));
-    check_lace_at(name, case, drawn, foam, dry).0
-}
-
-/// As [`check_lace`]; `lies` says where the lace lies in a pixel with foam at this depth. Returns
-/// also in how many pixels lace at the foam's own depth would have another colour.
-fn check_lace_at(
-    name: &str,
-    case: &Foamy,
-    drawn: &Drawn,
-    foam: impl Fn(usize, usize) -> Option<DVec3>,
-    lies: impl Fn(usize, usize, f64) -> Option<Lying>,
-) -> (usize, usize) {
     let (found, size) = (of(drawn), case.shot.size);
     let view = case.shot.view(size);
     let to_world = view.view.inverse();
@@ -253,49 +230,38 @@ fn check_lace_at(
     let cell = f64::from(look.lace_size * case.shot.settings.water.spacing);
     let (tile, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
     let phases = Pattern { strength: 0.0, size: tile, period, time: look.time }.phases();
-    let (mut compared, mut moved, mut lain) = (0, 0, 0);
+    let (mut compared, mut moved) = (0, 0);
     for (i, color) in drawn.output.data.iter().enumerate() {
         let (x, y) = (i % size.width as usize, i / size.width as usize);
         let z = f64::from(found.depth.data[i]);
-        let Some(lying) = Some(z).filter(|z| *z < 1e9).and_then(|z| lies(x, y, z)) else {
-            continue;
-        };
-        let Some(velocity) = foam(x, y) else { continue };
+        // A particle with little foam is also drawn as water, in the middle of its foam.
+        let alone = z < 1e9 && drawn.depth.data[i] >= 1e9;
+        let Some(velocity) = foam(x, y).filter(|_| alone) else { continue };
         let ray = view.ray(x, y);
         let extinction = f64::from(look.extinction);
         let hidden =
             1.0 - (-extinction * f64::from(found.thickness.data[i][0]) * ray.length()).exp();
-        let pixel = view.slope_step().x.abs();
-        let covered = |velocity: DVec3, lying: Lying| {
-            let (at, pixels) =
-                (to_world.transform_point3(ray * lying.z) / cell, lying.pixels(cell, pixel));
+        let at = to_world.transform_point3(ray * z) / cell;
+        let pixels = cell / (view.slope_step().x * z).abs();
+        let covered = |velocity: DVec3| {
             let covered = surface_foam::covered(hidden, at, (velocity / cell, &phases), pixels);
-            hidden + f64::from(look.lace) * smoothstep(2.0, 6.0, pixels.0) * (covered - hidden)
+            hidden + f64::from(look.lace) * smoothstep(2.0, 6.0, pixels) * (covered - hidden)
         };
         // Holes are darker and threads brighter.
-        let light = |velocity: DVec3, lying: Lying| {
-            let (at, (pixels, _)) =
-                (to_world.transform_point3(ray * lying.z) / cell, lying.pixels(cell, pixel));
+        let light = |velocity: DVec3| {
             let told = f64::from(look.lace) * smoothstep(2.0, 6.0, pixels);
             let pore = told * surface_foam::pore(at, (velocity / cell, &phases), pixels);
             (1.0 - f64::from(look.lace_shade) * pore).clamp(0.5, 1.2)
         };
         // Back and front colour are the same.
         let scene = f64::from(case.shot.color[i][0]);
-        let color_of = |velocity, lying| {
-            scene + (0.9 * light(velocity, lying) - scene) * covered(velocity, lying)
-        };
-        let (expected, still) = (color_of(velocity, lying), color_of(DVec3::ZERO, lying));
+        let color_of = |velocity| scene + (0.9 * light(velocity) - scene) * covered(velocity);
+        let (expected, still) = (color_of(velocity), color_of(DVec3::ZERO));
         let origin = to_world.w_axis.truncate().length() / cell;
-        let at = to_world.transform_point3(ray * lying.z) / cell;
-        let narrow = lying.pixels(cell, pixel).1;
-        // The depths of foam and surface err by 8u of themselves.
-        let dragged = lying.drag * 16.0 * U * (z + lying.z) * ray.length() / cell;
-        let closing = closing_error((at, origin), &phases, narrow, dragged);
+        let closing = closing_error((at, origin), &phases, pixels);
         // The smoothstep in `closing` divides by the width of a thread's end.
-        let shading = closing * surface_foam::ends(narrow) / 0.75 * f64::from(look.lace_shade);
-        let bound =
-            closing * (0.9 * light(velocity, lying) - scene).abs() + 0.9 * shading + 400.0 * U;
+        let shading = closing * surface_foam::ends(pixels) / 0.75 * f64::from(look.lace_shade);
+        let bound = closing * (0.9 * light(velocity) - scene).abs() + 0.9 * shading + 400.0 * U;
         let found = f64::from(color[0]);
         assert!(
             (found - expected).abs() <= bound,
@@ -303,11 +269,9 @@ fn check_lace_at(
         );
         compared += 1;
         moved += usize::from((expected - still).abs() > 2.0 * bound);
-        let afloat = color_of(velocity, Lying::alone(z));
-        lain += usize::from((expected - afloat).abs() > 2.0 * bound);
     }
     assert!(5 * moved > compared, "{name}: only {moved} of {compared} pixels tell the velocity");
-    (compared, lain)
+    compared
 }
 
 /// Lace moves with the foam at a pixel: faint foam at its own speed, a sprite whose centre lies far outside the picture
@@ -375,93 +339,6 @@ fn lace_moves_with_the_foam_at_each_pixel() {
     let mean = 0.75 * wide(one) + 0.25 * wide(other);
     let count = check_lace("mean", &case, &drawn, |_, _| Some(mean));
     assert!(count > 300, "{count} pixels of the mean");
-}
-
-/// Lace lies on the water's surface, also where the foam's own depth, one of spheres, is several spacings from it, and
-/// its edges are as soft as the pixel's footprint on the surface. Foam far before the water keeps its own depth.
-#[test]
-fn lace_lies_on_the_waters_surface() {
-    let gpu = Gpu::shared();
-    let size = extent(320, 200);
-    let config = whole(size, Shading::Raster).with(|it| {
-        it.sheets = 1;
-        it.mirror_steps = 0;
-        it.exit = Exit::Straight;
-        it.max_particles = 16384;
-    });
-    let mut rig = Rig::lit(&gpu, &config, 1);
-    let mut case = Foamy::new(size, Lens::OffAxis, 0.0);
-    let spacing = case.shot.settings.water.spacing;
-    // Water that becomes deeper upwards, seen at a grazing angle.
-    let layer = |i: usize| {
-        let [x, y, z] = [i % 60, i / 60 % 60, i / 3600].map(|v| 0.7 * v as f32 - 21.0);
-        [x, y, 62.0 + 1.8 * y + z + 21.0].map(|v| v * spacing)
-    };
-    let mut points: Vec<[f32; 3]> = (0..60 * 60 * 4).map(layer).collect();
-    case.amounts = vec![[0.0, 0.0]; points.len()];
-    // Foam in the water, before it up to where it has its own depth, and beyond that.
-    let mut random = scenes::Random(11);
-    for i in 0..160 {
-        let [x, y] = [0; 2].map(|_| random.between(-14.0, 14.0));
-        let before = [0.5, 4.0, 9.0, 12.0, 25.0][i % 5];
-        points.push([x, y, 62.0 + 1.8 * y - before].map(|v| v * spacing));
-        case.amounts.push([1.0, 0.0]);
-    }
-    case.shot.positions = scenes::world(&case.shot.camera, &points);
-    let velocity = [3.0, -1.5, 0.5].map(|v| v * spacing);
-    case.velocities = vec![velocity; points.len()];
-    case.ids = None;
-    let water = &mut case.shot.settings.water;
-    (water.refraction, water.bed) = (0.0, Bed::Source);
-    water.medium = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
-    let look = &mut case.shot.settings.surface_foam;
-    (look.noise, look.pattern, look.normal_strength, look.min_thickness) = (0.0, 0.0, 0.0, 0.0);
-    (look.extinction, look.front_extinction) = (1.5 / spacing, 5.0);
-    (look.back_color, look.front_color) = ([0.9; 3], [0.9; 3]);
-    (look.lace, look.lace_size, look.lace_shade, look.aeration) = (1.0, 4.0, 1.0, 0.0);
-    case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
-    // Without the surface's reflection.
-    case.shot.settings.debug_view = DebugView::SurfaceFoam;
-    let drawn = case.draw(&mut rig);
-
-    let view = case.shot.view(size);
-    let settings = twin_settings(&case.shot, &view);
-    let color = Image::new(size.width as usize, size.height as usize, [0.0; 4]);
-    let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
-    let (thickness, scene) = (wide(&drawn.thickness), case.shot.scene_eye());
-    let inputs = Inputs {
-        depth: &depth,
-        smoothed: &smoothed,
-        level: 0,
-        thickness: &thickness,
-        thickness_level: 0,
-        scene_color: &color,
-        scene_depth: &scene,
-        noise: None,
-    };
-    let surfaces = Surfaces::new(&inputs, &settings, &view);
-    let (mut steep, mut far) = (0, 0);
-    let pixel = view.slope_step().x.abs();
-    let lies = |x: usize, y: usize, z: f64| {
-        let own = depth.at(x, y);
-        let mut margin = f64::INFINITY;
-        let surface = is_surface(own).then(|| surfaces.smooth(x, y, own, &mut margin))?;
-        let complete = matches!(surface.case, Case::Whole) && surface.found == 1.0;
-        (complete && margin > 1.0e-5)
-            .then(|| Lying::near(z, (surface.z, surface.slope[0]), pixel, f64::from(spacing)))
-    };
-    for (x, y) in (0..200).flat_map(|y| (0..320).map(move |x| (x, y))) {
-        let z = f64::from(of(&drawn).depth.at(x, y));
-        let Some(lying) = Some(z).filter(|z| *z < 1e9).and_then(|z| lies(x, y, z)) else {
-            continue;
-        };
-        steep += usize::from(lying.stretch > 2.0);
-        far += usize::from(lying.stretch == 1.0 && lying.z == z);
-    }
-    let speed = DVec3::from(velocity.map(f64::from));
-    let (count, lain) = check_lace_at("on water", &case, &drawn, |_, _| Some(speed), lies);
-    assert!(count > 3000 && lain > 1000, "{count} compared, {lain} tell the surface");
-    assert!(steep > 500 && far > 1000, "{steep} steep, {far} far");
 }
 
 /// Thickness of the water that lies behind the frontmost foam and before the middle of the visible

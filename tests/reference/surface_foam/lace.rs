@@ -8,7 +8,7 @@
 use super::super::smoothstep;
 use super::noise::noise;
 use super::pattern::Phase;
-use glam::{DVec2, DVec3, IVec3};
+use glam::{DVec3, IVec3};
 
 /// Min and max radius, in cells.
 const RADII: (f64, f64) = (0.5, 0.7);
@@ -31,47 +31,6 @@ const SHEER: (f64, f64) = (0.45, 0.45);
 const ENDS: (f64, f64) = (0.04, 0.7);
 /// Half the width of a thread's soft edge, which has half of the weight.
 const EDGE: f64 = 0.16;
-/// Distance in spacings between the foam's middle and the water's surface, up to which lace lies on
-/// the surface, and from which it lies at the foam's depth.
-const LYING: (f64, f64) = (8.0, 16.0);
-/// Max ratio of the sides of a pixel's footprint.
-const STRETCHED: f64 = 8.0;
-
-/// Where the lace of a pixel lies.
-#[derive(Clone, Copy, Debug)]
-pub struct Lying {
-    /// Depth.
-    pub z: f64,
-    /// Length of the pixel's footprint in the steepest direction, relative to its width.
-    pub stretch: f64,
-    /// Derivative of `z` by the distance between foam and surface.
-    pub drag: f64,
-}
-
-impl Lying {
-    /// At the foam's depth, facing the eye.
-    pub fn alone(z: f64) -> Self {
-        Self { z, stretch: 1.0, drag: 0.0 }
-    }
-
-    /// On or near a surface at depth `at`, which becomes deeper by `slope` per pixel. `pixel`: width
-    /// of a pixel at depth 1.
-    pub fn near(z: f64, (at, slope): (f64, DVec2), pixel: f64, spacing: f64) -> Self {
-        let apart = (at - z).abs() / spacing;
-        let off = smoothstep(LYING.0, LYING.1, apart);
-        let z = at + (z - at) * off;
-        let tilt = (1.0 - off) * slope.length() / (z * pixel);
-        let drag = if off > 0.0 && off < 1.0 { 1.5 * apart / (LYING.1 - LYING.0) } else { 0.0 };
-        Self { z, stretch: (1.0 + tilt * tilt).sqrt().min(STRETCHED), drag }
-    }
-
-    /// Width of a cell in pixels: the mean of both directions, and that along the slope. `cell`:
-    /// width of the cell; `pixel`: width of a pixel at depth 1.
-    pub fn pixels(&self, cell: f64, pixel: f64) -> (f64, f64) {
-        let across = cell / (self.z * pixel);
-        (across / self.stretch.sqrt(), across / self.stretch)
-    }
-}
 
 /// The bubble of a cell: its centre in cells, and its radius.
 fn bubble(cell: IVec3) -> (DVec3, f64) {
@@ -114,8 +73,7 @@ pub fn closes(place: DVec3, pixels: f64) -> f64 {
     SIZES.iter().map(of).sum::<f64>() + NOISE.2 * noise(at)
 }
 
-/// Half the width of a thread's end, where a cell is `pixels` pixels wide along the steepest
-/// direction.
+/// Half the width of a thread's end, where a cell is `pixels` pixels wide.
 pub fn ends(pixels: f64) -> f64 {
     (ENDS.1 / pixels).max(ENDS.0)
 }
@@ -130,13 +88,11 @@ pub fn pore(place: DVec3, (drift, phases): (DVec3, &[Phase]), pixels: f64) -> f6
     phases.iter().map(of).sum()
 }
 
-/// Fraction that threads cover of a point, where smooth foam would cover `hidden`. `pixels`: width of
-/// a cell in pixels, as [`Lying::pixels`].
-pub fn covered(hidden: f64, place: DVec3, moving: (DVec3, &[Phase]), pixels: (f64, f64)) -> f64 {
-    let (pixels, narrow) = pixels;
+/// Fraction that threads cover of a point, where smooth foam would cover `hidden`.
+pub fn covered(hidden: f64, place: DVec3, moving: (DVec3, &[Phase]), pixels: f64) -> f64 {
     let much = LOGISTIC.0 + LOGISTIC.1 * (hidden.max(1.0e-6) / (1.0 - hidden).max(1.0e-6)).ln();
     let closes = MEDIAN + pore(place, moving, pixels);
-    let ends = ends(narrow);
+    let ends = ends(pixels);
     let over = |ends: f64| smoothstep(closes - ends, closes + ends, much);
     let body = 1.0 - SHEER.0 * (1.0 - smoothstep(0.0, SHEER.1, much - closes));
     if hidden > 0.0 { 0.5 * body * (over(ends) + over(ends.max(EDGE))) } else { 0.0 }
@@ -160,22 +116,20 @@ mod tests {
             .collect();
         for tenth in 1..10 {
             let hidden = 0.1 * f64::from(tenth);
-            let all: f64 =
-                places.iter().map(|place| covered(hidden, *place, STILL, (100.0, 100.0))).sum();
+            let all: f64 = places.iter().map(|place| covered(hidden, *place, STILL, 100.0)).sum();
             let mean = all / places.len() as f64;
             // The distribution is only approximately logistic.
             assert!((mean - hidden).abs() < 0.03, "{hidden}: {mean}");
             // The pattern has threads and holes: few points are covered by an amount between, at
             // thin spots and at threads' edges.
-            let veiled = places
-                .iter()
-                .filter(|p| (0.1..0.4).contains(&covered(hidden, **p, STILL, (100.0, 100.0))));
+            let veiled =
+                places.iter().filter(|p| (0.1..0.4).contains(&covered(hidden, **p, STILL, 100.0)));
             assert!(veiled.count() < places.len() / 6, "{hidden}: a veil");
         }
         let all: f64 = places.iter().map(|place| inside(*place)).sum();
         assert!((all / places.len() as f64 - MEAN).abs() < 0.005, "the mean of the bubbles");
-        assert_eq!(covered(0.0, places[0], STILL, (100.0, 100.0)), 0.0);
-        assert_eq!(covered(1.0, places[0], STILL, (100.0, 100.0)), 1.0);
+        assert_eq!(covered(0.0, places[0], STILL, 100.0), 0.0);
+        assert_eq!(covered(1.0, places[0], STILL, 100.0), 1.0);
     }
 
     /// There is no jump where cells meet, because the adjacent cells include every bubble that

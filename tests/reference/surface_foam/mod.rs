@@ -29,7 +29,7 @@ use crate::support::tolerance::U;
 use glam::DVec3;
 
 pub use bounds::{depth_bounds, thickness_bounds};
-pub use lace::{Lying, covered, ends, pore};
+pub use lace::{covered, ends, pore};
 pub use layers::{depth, seen, thickness};
 pub use loose::LooseEllipse;
 pub use noise::{noise, noise_reach, noise_rounding, noise_slope, origin};
