@@ -5,8 +5,8 @@
 use libfuzzer_sys::fuzz_target;
 use whitewater::io::particles::{Extension, read_bytes};
 
-/// The same file with its own length where the header states it; otherwise most files that the fuzzer shortens would be
-/// refused at once.
+/// Writes the file's true length into its header. Without that the reader would refuse each file that the fuzzer has
+/// shortened, and read no further.
 fn whole(mut bytes: Vec<u8>) -> Vec<u8> {
     let length = (bytes.len() as u64).to_le_bytes();
     let at = match bytes.get(8) {

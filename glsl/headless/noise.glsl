@@ -3,7 +3,8 @@
 // Factors of a point's coordinates in its hash.
 const uvec3 HASH = uvec3(0x8da6b343u, 0xd8163841u, 0xcb1ab31fu);
 
-// In [0, 1), from the xor of the coordinates' products. Four at once, because compilers copy each call.
+// Hashes of four points, in [0, 1), from the xor of each point's products. Four at once, because compilers inline each
+// call.
 vec4 hashed(uvec4 h) {
     h ^= h >> 15;
     h *= 0x2c1b3c6du;

@@ -178,8 +178,9 @@ impl WhitewaterParts<'_> {
     /// Uploads the next particles. The slices need not outlive the call.
     ///
     /// # Errors
-    /// An attribute that is not as long as the positions; other attributes than in the previous part; no memory; or
-    /// more whitewater particles than announced by `whitewater_parts`. After an error this part is ignored.
+    /// Fails if an attribute is not as long as the positions, if the part has other attributes than the previous part, if
+    /// memory runs out, or if there are more whitewater particles than `whitewater_parts` announced. The failed part is
+    /// ignored.
     pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {

@@ -211,9 +211,9 @@ pub struct BlobSimulationConfig {
     pub max_blobs: u32,
     /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// Maximum number of successive splits, 0 to 6, default 0. A blob splits into two halves
-    /// ([`BlobSimulationSettings::split_support`]), each half can split again, and so on, so a blob becomes at most
-    /// 2^`max_splits` blobs. The simulation allocates `max_blobs` × 2^`max_splits` blobs, which must be at most 2^20.
+    /// Maximum number of generations of splits, 0 to 6, default 0. In each generation a blob can split into two
+    /// ([`BlobSimulationSettings::split_support`]), so one blob becomes at most 2^`max_splits`. Memory is allocated for
+    /// `max_blobs` × 2^`max_splits` blobs; this product must be at most 2^20.
     pub max_splits: u32,
 }
 

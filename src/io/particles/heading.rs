@@ -185,9 +185,22 @@ fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
         .then_some((at, row.1))
 }
 
-/// Units of length. A line of words below the names holds units if one of them is here.
-const LENGTHS: [&str; 11] =
-    ["m", "mm", "cm", "dm", "km", "um", "\u{b5}m", "\u{3bc}m", "in", "ft", "metre"];
+/// Units of length that files have in brackets behind names (`x [mm]`) or in a row below them: name, and metres per unit.
+/// A row of words below the names holds units if one of these is among them.
+pub const LENGTH_UNITS: [(&str, f64); 12] = [
+    ("m", 1.0),
+    ("metre", 1.0),
+    ("mm", 1.0e-3),
+    ("cm", 1.0e-2),
+    ("dm", 0.1),
+    ("km", 1.0e3),
+    ("um", 1.0e-6),
+    ("\u{b5}m", 1.0e-6),
+    ("\u{3bc}m", 1.0e-6),
+    ("nm", 1.0e-9),
+    ("in", 0.0254),
+    ("ft", 0.3048),
+];
 
 /// If a line below the names holds units, puts each in brackets behind its name: `x [mm]`, as other files have it.
 fn add_units(names: &mut [String], line: &[u8], separator: Option<u8>) {
@@ -207,7 +220,8 @@ fn add_units(names: &mut [String], line: &[u8], separator: Option<u8>) {
         Some(_) => units.len() <= names.len(),
         None => units.len() == names.len(),
     };
-    if !fits || !units.iter().any(|unit| LENGTHS.contains(&unit.as_str())) {
+    let is_length = |unit: &String| LENGTH_UNITS.iter().any(|(name, _)| name == unit);
+    if !fits || !units.iter().any(is_length) {
         return;
     }
     for (name, unit) in names.iter_mut().zip(units) {

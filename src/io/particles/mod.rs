@@ -88,6 +88,7 @@ use asked::Asked;
 pub use columns::{Attribute, AttributeType, Extra};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
+pub use heading::LENGTH_UNITS;
 pub use meaning::Meaning;
 pub use parts::{Parts, find_origin};
 pub use spacing::{estimate_densities, estimate_spacing};

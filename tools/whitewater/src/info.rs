@@ -7,7 +7,7 @@ use whitewater::io::particles::sequence::{self, Frame, SequenceError};
 use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
-use crate::bounds::{Bounds, Extent};
+use crate::bounds::Extent;
 use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::fluids::Fluids;
@@ -110,6 +110,7 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
         })
         .collect();
     let spacing = particles::estimate_spacing(&particles.positions);
+    let extent = Extent::of(&particles.positions);
     let phases: Map<String, Value> = extras::phases(particles)
         .into_iter()
         .map(|(name, values)| {
@@ -142,15 +143,14 @@ fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
         "phases": phases,
         "at_rest": at_rest,
         "missing": missing(Has::of(particles)),
-        "unit": unit(particles),
-        "up": up(particles),
+        "unit": unit(particles, &extent),
+        "up": up(particles, extent),
         "warnings": warnings,
     })
 }
 
 /// The axis that points up.
-fn up(particles: &Particles) -> Value {
-    let extent = Extent::of(&particles.positions);
+fn up(particles: &Particles, extent: Extent) -> Value {
     match upright::find(std::slice::from_ref(particles), &[extent]) {
         Some(found) => json!({"axis": found.up.name(), "sure": found.sure, "why": found.why}),
         None => json!({
@@ -162,14 +162,13 @@ fn up(particles: &Particles) -> Value {
 }
 
 /// The unit of length that the file names, or a message if the water's extent is implausible in metres.
-fn unit(particles: &Particles) -> Option<String> {
-    let named = placing::named_hint(particles).or_else(|| hint(particles));
+fn unit(particles: &Particles, extent: &Extent) -> Option<String> {
+    let hint = || {
+        let longest = extent.bulk?.size().max_element();
+        placing::hint(longest, placing::fastest(particles))
+    };
+    let named = placing::named_hint(particles).or_else(hint);
     named.or_else(|| placing::named_metres(particles))
-}
-
-fn hint(particles: &Particles) -> Option<String> {
-    let extent = Bounds::of_bulk(&particles.positions)?.size().max_element();
-    placing::hint(extent, placing::fastest(particles))
 }
 
 /// The meaning of an attribute; `None` if it is ignored.

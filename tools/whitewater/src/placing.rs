@@ -2,8 +2,9 @@
 
 use std::ops::Neg;
 
+use clap::ValueEnum;
 use glam::Vec3;
-use whitewater::io::particles::{Meaning, Particles};
+use whitewater::io::particles::{LENGTH_UNITS, Meaning, Particles};
 
 use crate::args::{Unit, Up};
 use crate::surface_foam::quantile;
@@ -141,38 +142,28 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
-/// Units of length in names of files: the name, metres, and the flag that converts them.
-const LENGTHS: [(&str, f32, &str); 11] = [
-    ("m", 1.0, ""),
-    ("mm", 1.0e-3, "--unit mm"),
-    ("cm", 1.0e-2, "--unit cm"),
-    ("km", 1.0e3, "--unit km"),
-    ("dm", 0.1, "--scale 0.1"),
-    ("um", 1.0e-6, "--scale 1e-6"),
-    ("\u{b5}m", 1.0e-6, "--scale 1e-6"),
-    ("\u{3bc}m", 1.0e-6, "--scale 1e-6"),
-    ("nm", 1.0e-9, "--scale 1e-9"),
-    ("in", 0.0254, "--scale 0.0254"),
-    ("ft", 0.3048, "--scale 0.3048"),
-];
-
 /// The unit of length that stands in brackets after the names of the position attributes, or in a row of units below
-/// them, with the first of the names: an entry of [`LENGTHS`].
-fn named(particles: &Particles) -> Option<(&'static str, f32, &'static str, &str)> {
+/// them: its name, metres per unit, and the first of the attributes' names.
+fn named(particles: &Particles) -> Option<(&'static str, f64, &str)> {
     let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
     let unit = |name: &String| {
         let (_, unit) = name.rsplit_once(['[', '('])?;
         let unit = unit.trim_end().trim_end_matches([']', ')']).trim();
-        LENGTHS.iter().find(|(known, ..)| *known == unit)
+        LENGTH_UNITS.iter().find(|(known, _)| *known == unit)
     };
     let units: Option<Vec<_>> = names.iter().map(unit).collect();
-    let (unit, metres, flag) = **units?.first()?;
-    Some((unit, metres, flag, names.first()?))
+    let (unit, metres) = **units?.first()?;
+    Some((unit, metres, names.first()?))
 }
 
 /// A message about that unit, if it is not the metre.
 pub fn named_hint(particles: &Particles) -> Option<String> {
-    let (unit, _, flag, name) = named(particles).filter(|(_, metres, ..)| *metres != 1.0)?;
+    let (unit, metres, name) = named(particles).filter(|(_, metres, _)| *metres != 1.0)?;
+    let flag = match Unit::from_str(unit, false) {
+        Ok(_) => format!("--unit {unit}"),
+        Err(_) if metres < 1.0e-3 => format!("--scale {metres:e}"),
+        Err(_) => format!("--scale {metres}"),
+    };
     Some(format!(
         "the names of the positions say {unit}, but they are read as metres; {flag} converts them (the name is `{name}`; \
          a row of units below the names counts)"
@@ -181,7 +172,7 @@ pub fn named_hint(particles: &Particles) -> Option<String> {
 
 /// A message that this unit is the metre.
 pub fn named_metres(particles: &Particles) -> Option<String> {
-    let (.., name) = named(particles).filter(|(_, metres, ..)| *metres == 1.0)?;
+    let (.., name) = named(particles).filter(|(_, metres, _)| *metres == 1.0)?;
     Some(format!(
         "m, as the names of the positions say (`{name}`; a row of units below the names counts)"
     ))

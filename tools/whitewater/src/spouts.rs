@@ -233,6 +233,11 @@ mod tests {
         assert!((low.y + 0.2).abs() < 1.0e-4, "{low}");
         // The channel extends no farther forward than the lip, and back to the pier.
         assert!(high.z > 2.0 * SPACING && high.z < 3.0 * SPACING && low.z < -0.8, "{low} {high}");
+        // Box and lining are dark whatever the stone is.
+        let (metal, stone): (Vec<&Mesh>, Vec<&Mesh>) =
+            meshes.iter().partition(|mesh| mesh.material != Material::default());
+        assert_eq!((metal.len(), stone.len()), (5, 5));
+        assert!(metal.iter().all(|mesh| mesh.material.base_color.iter().all(|c| *c <= 0.1)));
         let core = corners(&meshes[0]).into_iter().reduce(Vec3::max).unwrap();
         assert!(core.z > 0.1 * SPACING && core.z < high.z);
     }
