@@ -32,11 +32,12 @@ pub struct Context {
 }
 
 impl Context {
-    /// Creates a context from the host's objects. It creates three samplers and nothing else.
+    /// Creates a context from the host's objects. The only Vulkan objects that it creates are three samplers.
     ///
     /// # Errors
     /// [`Error::BadInput`] for a queue family without graphics and compute, or a number of frames in flight
-    /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks; Vulkan errors.
+    /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks;
+    /// [`Error::Allocation`] if [`Host::allocator`] is `None` and no allocator can be created; Vulkan errors.
     ///
     /// # Safety
     /// The host's handles are alive, belong together, and outlive the context and everything created from it. The
@@ -48,16 +49,17 @@ impl Context {
         Ok(Self { shared, slots: host.frames_in_flight })
     }
 
-    /// A clone of this context; objects created from the clone have another number of frames in flight, 1 to 8.
+    /// A clone of this context with another number of frames in flight, 1 to 8. It applies to objects that are
+    /// created from the clone; those created from this context keep their number.
     ///
     /// # Errors
-    /// [`Error::BadInput`] for any other number.
+    /// [`Error::BadInput`] for a number outside 1 to 8.
     pub fn with_frames_in_flight(&self, frames_in_flight: u32) -> Result<Self, Error> {
         check_slots(frames_in_flight)?;
         Ok(Self { shared: self.shared.clone(), slots: frames_in_flight })
     }
 
-    /// Number of frames in flight: slots are 0 .. frames_in_flight.
+    /// Number of frames in flight, for objects created from this context. Slots are the numbers from 0 to one less.
     pub fn frames_in_flight(&self) -> u32 {
         self.slots
     }

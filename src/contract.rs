@@ -69,15 +69,16 @@ pub struct Host<'a> {
     /// A device of Vulkan 1.2 or newer that meets [`requirements`](crate::requirements). Its instance was also
     /// created for Vulkan 1.2 or newer.
     pub device: &'a ash::Device,
-    /// Allocator of device memory. It is called only in construction, `reconfigure`, `resize`, `collect` and
-    /// `destroy`. An allocator usually has to be dropped before the device is destroyed. `Host` and the context share
-    /// it, so it can be dropped only after both, and the context lives on until everything made from it is destroyed.
-    /// With `None` the context creates an allocator of its own, which is dropped together with the context.
+    /// Allocator of device memory. It is called only in construction, `reconfigure`, `resize`, `collect`, `abandon`
+    /// (which collects) and `destroy`. An allocator usually has to be dropped before the device is destroyed. `Host`
+    /// and the context share it, so it can be dropped only after both, and the context lives on until everything made
+    /// from it is destroyed. With `None` the context creates an allocator of its own, which is dropped together with
+    /// the context.
     pub allocator: Option<Arc<dyn Allocate>>,
     /// Index of a queue family that supports graphics and compute. Every command buffer that the host hands in
     /// belongs to this family.
     pub queue_family: u32,
-    /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
+    /// Number of frames in flight, 1 to 8. Slots are the numbers from 0 to `frames_in_flight - 1`.
     pub frames_in_flight: u32,
     /// Optional features that the host enabled on the device.
     pub enabled: EnabledFeatures,
@@ -138,8 +139,8 @@ pub struct EnabledFeatures {
     pub synchronization2: bool,
     /// `shaderStorageImageWriteWithoutFormat`: shaders may write a storage image without declaring its format.
     /// [`Config::surface_foam`], [`Config::motion`], [`Shadows::Convolution`] and [`Shading::Compute`] need it, but
-    /// only on a device created for Vulkan 1.2: in Vulkan 1.3 each format supports such writes or not, without this
-    /// feature.
+    /// only on a device created for Vulkan 1.2. In Vulkan 1.3 it depends on the format alone, not on this feature,
+    /// whether such writes are supported.
     pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
@@ -173,24 +174,26 @@ pub struct Config {
     /// image limit wide; a narrow one can be as long as the whole limit. Second, each of the following buffers is
     /// bound as a whole and has to fit in the storage-buffer range: with [`whitewater`](Self::whitewater) 32 bytes
     /// per pixel; with [`bubbles`](Self::bubbles) `4·layers + 4` bytes per pixel; for thickness 8 bytes per texel of
-    /// its image, plus 8 with [`surface_foam`](Self::surface_foam), plus 16 with [`sheets`](Self::sheets) of 2.
+    /// its image, plus 8 with [`surface_foam`](Self::surface_foam), plus 16 with [`sheets`](Self::sheets) of 2; for
+    /// surface foam itself up to 24 bytes per texel of its image.
     pub extent: vk::Extent2D,
     /// Format of the output, which is a colour attachment or a storage image, depending on
     /// [`composite`](Self::composite).
     pub output_format: vk::Format,
     /// Maximum number of particles per frame, at least 1.
     pub max_particles: u32,
-    /// Maximum stride of the particle streams in bytes, a multiple of 4 (default 16). The device's storage-buffer
-    /// range divided by this stride limits how many particles are processed at a time.
+    /// Maximum stride of the streams of [`Particles`] in bytes, a multiple of 4 (default 16). The device's
+    /// storage-buffer range divided by this stride limits how many particles are processed at a time.
     pub max_stride: u32,
     /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
     pub smoothing_level: u32,
     /// Resolution of the images of water thickness and surface foam: 0 full, 1 half, 2 quarter (default), 3 eighth. A
-    /// pixel interpolates the thickness only between texels that show its own surface, and foam only between texels
-    /// whose foam the scene does not hide.
+    /// pixel interpolates the thickness only between those texels around it that show its own surface (between all
+    /// four if none does), and foam only between texels whose foam the scene does not hide.
     pub thickness_level: u32,
-    /// How the particles' depth is rasterized. With `None`: [`Splat::Compute`], which was the fastest on lavapipe (a
-    /// CPU driver) and on an H200 at every size tested.
+    /// How the particles' depth is rasterized. With `None`: [`Splat::Compute`] on every device. With
+    /// [`Splat::Raster`] the pass `depth` took 0.9 to 3.9 times as long on lavapipe (a CPU driver; the more particles,
+    /// the longer), and three times as long on an H200.
     #[cfg(feature = "diagnostics")]
     pub depth_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
@@ -215,9 +218,10 @@ pub struct Config {
     pub composite: Option<Shading>,
     /// Number of steps of the screen-space ray march that finds which part of the scene water reflects, 0 to 64,
     /// default 8. The first step is a 128th of the picture's height long. Each further step multiplies the distance
-    /// from the ray's start by a constant factor (2.2 on a wide picture), so that the last step ends at the picture's
-    /// edge. A ray that hits nothing on the screen shows the environment. With 0 steps, as in the thesis, and with
-    /// `Compositing::Source` (feature `diagnostics`), water reflects only the environment.
+    /// from the ray's start by a factor that is constant along a ray, so that the last step ends where the ray leaves
+    /// the picture, at the latest (8 steps across the whole width of a 16:9 picture: 2.2). A ray that hits nothing on
+    /// the screen shows the environment. With 0 steps, as in the thesis, and with `Compositing::Source` (feature
+    /// `diagnostics`), water reflects only the environment.
     pub mirror_steps: u32,
     /// How the view through water that has air behind it, such as a jet or a drop, is computed. Default
     /// [`Exit::TwoInterfaces`]. With [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in
@@ -252,30 +256,31 @@ pub struct Config {
     pub sheets: u32,
     /// Whether the pass `surface_foam` draws surface foam (default false), into which particles of the water turn.
     /// The part of a particle that is foam no longer counts as water. Surface foam takes 68 more bytes of GPU memory
-    /// per particle.
+    /// per particle, and 52 per texel at [`thickness_level`](Self::thickness_level) (56 with a light map or a shadow
+    /// map).
     pub surface_foam: bool,
     /// Whether the pass `spray` draws particles of low density as droplets and mist (default false). A particle below
     /// [`SpraySettings::all_spray_density`] is only spray, one above
     /// [`no_spray_density`](SpraySettings::no_spray_density) is no spray; in between the share of spray falls
     /// gradually. The limits of [`SpraySettings`] then also apply to water and surface foam. Spray takes 48 more
-    /// bytes of GPU memory per particle.
+    /// bytes of GPU memory per particle, and 8 per pixel.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own, [`Frame::whitewater`]):
     /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not drawn. It takes 88 more bytes of
     /// GPU memory per pixel of [`extent`](Self::extent).
     pub whitewater: Option<WhitewaterConfig>,
     /// Whether blobs of bubble foam (balls of soap bubbles) are drawn ([`Frame::bubbles`]): the passes `blobs`,
-    /// `peel`, `soap`, and `near` if the blobs are made from whitewater foam ([`BubbleConfig::crossfade`]). With
-    /// `None`, the default, they are not drawn. They take `18½ + 4·layers` more bytes of GPU memory per pixel, and 64
-    /// per blob.
+    /// `peel`, `soap`, `cast` with [`light_map_size`](Self::light_map_size), and `near` if the blobs are made from
+    /// whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not drawn. They take
+    /// `18½ + 4·layers` more bytes of GPU memory per pixel, and 64 per blob (100 with `crossfade`).
     pub bubbles: Option<BubbleConfig>,
-    /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. With
-    /// `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and 8.7 MiB for the
-    /// textures.
+    /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shore-tiles`, `shoreline` and
+    /// `contact`. With `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and
+    /// 8.7 MiB for the textures of the default size.
     pub shore: Option<ShoreConfig>,
     /// Resolution at which the pass `noise` draws ripples finer than the particles ([`Settings::noise`]): 0 full, 1
     /// half, 2 quarter, 3 eighth. With `None`, the default, there are no such ripples. They take 16 more bytes per
-    /// particle, and 4 per texel.
+    /// particle, and 4 per texel at this resolution.
     pub noise: Option<u32>,
     /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. With `None`,
     /// the default, the scene casts no shadow on water and foam.
@@ -285,8 +290,10 @@ pub struct Config {
     /// [`Frame::light_volume`] as seen from the sun: a multiple of 16 from 16 to 4096. The maps take 36 bytes per
     /// texel, in addition to a lit copy of the scene. With [`whitewater`](Self::whitewater) whitewater also casts
     /// shadows on the scene, the water, foam and itself, in the pass `whitewater_light`, which takes 24 more bytes
-    /// per texel. A texel of half a particle spacing, so 4 · radius / spacing texels a side, shows all that the
-    /// particles resolve. With `None`, the default, there are no shadows or caustics.
+    /// per texel. With [`bubbles`](Self::bubbles) blobs also cast shadows on the scene, on foam and on each other, in
+    /// the pass `cast`, which takes one more byte per texel. A texel of half a particle spacing, so 4 · radius /
+    /// spacing texels a side, shows all that the particles resolve. With `None`, the default, there are no shadows or
+    /// caustics.
     pub light_map_size: Option<u32>,
     /// Whether motion vectors are rendered (default false): the pass `motion` and the layer `motion`, from
     /// [`Frame::previous`] and the particles' velocities. They take 12.5 more bytes per pixel with the default
@@ -294,9 +301,10 @@ pub struct Config {
     pub motion: bool,
     /// Side length of a face of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
-    /// Whether the output may also be the image that holds the scene behind the water (default true). The library
-    /// then copies the scene before it writes the output, so the output needs transfer-source usage. With
-    /// [`light_map_size`](Self::light_map_size) it samples the scene instead, and the output also needs sampled usage.
+    /// Whether the output may also be the image that holds the scene behind the water (default true). If it is, the
+    /// library copies the scene before it writes the output, for which the output needs transfer-source usage. With
+    /// [`light_map_size`](Self::light_map_size) the library samples the scene instead of copying it, for which the
+    /// output needs sampled usage.
     pub in_place: bool,
     /// Whether the images of intermediate layers can be read by the host after `record` (default false).
     pub keep_layers: bool,
@@ -352,9 +360,9 @@ pub struct Slot(pub u32);
 #[non_exhaustive]
 pub struct HostImage {
     /// The image: single-sampled and 2D. An image that is read needs sampled usage; a depth image also needs
-    /// attachment usage, because its read-only layout requires it. An output needs
-    /// colour-attachment usage, or storage usage with `Shading::Compute`; if it is also the scene
-    /// ([`Config::in_place`]), transfer-source usage, and with [`Config::light_map_size`] sampled usage too.
+    /// attachment usage, because its read-only layout requires it. An output needs colour-attachment usage, or storage
+    /// usage with `Shading::Compute`. An output that is also the scene ([`Config::in_place`]) needs transfer-source
+    /// usage in addition, or, with [`Config::light_map_size`], sampled usage.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; for depth-stencil images a view of only the depth aspect.
     pub view: vk::ImageView,
@@ -367,7 +375,8 @@ pub struct HostImage {
     /// The part of the image that is used: the whole image, the part of one view in an image of several views, or a
     /// part whose size changes from frame to frame. Barriers cover the whole image.
     pub rect: vk::Rect2D,
-    /// Last use before `record`: the stages and accesses to wait for, and the current layout.
+    /// Last use before `record`: the stages and accesses to wait for, and the current layout, which must not be
+    /// `UNDEFINED`.
     pub before: Access,
     /// First use after `record`, with the layout in which `record` leaves the image.
     pub after: Access,
@@ -426,9 +435,11 @@ pub struct Stream {
     pub size: u64,
     /// Byte offset of the first particle's value, a multiple of 4.
     pub offset: u64,
-    /// Bytes from one particle's value to the next, a multiple of 4. The maximum for a renderer is
-    /// [`Config::max_stride`]; other objects have a `max_stride` in their own configuration. Vertices and indices
-    /// ([`Triangles`]) have no such maximum, but the device must be able to bind the whole stream.
+    /// Bytes from one particle's value to the next, a multiple of 4. For [`Particles`] the maximum is
+    /// [`Config::max_stride`]. For [`WhitewaterParticles`], [`SurfaceFoamStep`] and [`GeneratorStep`] it is the
+    /// `max_stride` of their own configuration. For [`Blobs`], [`Triangles`] and [`Strip`] there is no such maximum,
+    /// but the device must be able to bind the whole stream (of blobs, one with as many values as the configured
+    /// maximum).
     pub stride: u32,
 }
 
@@ -468,13 +479,13 @@ impl Stream {
     }
 }
 
-/// The number of particles.
+/// The number of particles or blobs. Its maximum is in the configuration of the object that reads them, for example
+/// [`Config::max_particles`].
 #[derive(Clone, Copy, Debug)]
 pub enum Count {
-    /// Known to the host; at most [`Config::max_particles`].
+    /// Known to the host. A number above the maximum is an error.
     Cpu(u32),
-    /// A `u32` in a buffer with storage usage, read on the GPU and clamped to
-    /// [`Config::max_particles`].
+    /// A `u32` in a buffer with storage usage, read on the GPU and clamped to the maximum.
     Gpu {
         /// The buffer.
         buffer: vk::Buffer,
@@ -485,8 +496,9 @@ pub enum Count {
 
 /// Packets: the host's own groups of consecutive particles, each culled as a whole. The buffer holds `count` records
 /// of 32 bytes: first particle (u32), number of particles (u32), minimum and maximum corner of the box around the
-/// particles' centres (3×f32 each, world space). A particle may be in one packet only. Particles in no packet are not
-/// drawn and cast no shadow. Packets outside the view are not drawn, but their particles still cast shadows into it.
+/// particles' centres (3×f32 each, world space). A particle may be in at most one packet. Particles in no packet are
+/// not drawn and cast no shadow. Packets outside the view are not drawn, but their particles still cast shadows into
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub struct Packets {
     /// A buffer with storage usage.
@@ -501,12 +513,12 @@ pub struct Packets {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Particles {
-    /// World-space centres (3×f32, scene units). NaN and infinite ones are dropped
-    /// and counted.
+    /// World-space centres (3×f32, scene units). Particles with a coordinate that is NaN, infinite or at least 1e18
+    /// in magnitude are dropped and counted.
     pub positions: Stream,
     /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a particle
-    /// that was just emitted: it gets the rest density and is therefore full water or foam, and not spray. With
-    /// `None` this applies to all particles.
+    /// that was just emitted: such a particle is full water or foam, and not spray. With `None` this applies to all
+    /// particles.
     pub densities: Option<Stream>,
     /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for motion
     /// vectors. Read only with [`Config::surface_foam`], [`Config::spray`] or [`Config::motion`]. With `None` the
@@ -518,11 +530,11 @@ pub struct Particles {
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
-    /// Groups that are culled as a whole; with `None` each particle is culled.
+    /// Groups that are culled as a whole before their particles are culled one by one. `None`: no groups.
     pub packets: Option<Packets>,
-    /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32: the content of
-    /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam), at a stride of 8. Needs [`Config::surface_foam`].
-    /// With `None` there is no foam.
+    /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32, as
+    /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam) returns them. Without [`Config::surface_foam`] it has
+    /// to be `None`. With `None` there is no foam.
     pub surface_foam: Option<Stream>,
     /// Last use of all buffers of these water particles before `record`; the layout is ignored. Use
     /// [`access::NOTHING`](crate::access::NOTHING) for buffers that the CPU wrote before the submission.
@@ -532,8 +544,8 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Particles with only positions, in buffers that the CPU wrote before the submission and that otherwise only
-    /// shaders read.
+    /// Particles with only positions, in buffers that the CPU wrote before the submission. `record` then waits for no
+    /// earlier use of them on the GPU, and makes no later use wait.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
             positions,
@@ -572,7 +584,8 @@ impl Particles {
         Self { packets: Some(packets), ..self }
     }
 
-    /// Adds the foam fraction of each particle, as in [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam).
+    /// Adds foam amount and age of each particle, as [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam) returns
+    /// them.
     #[must_use]
     pub fn with_surface_foam(self, foam: Stream) -> Self {
         Self { surface_foam: Some(foam), ..self }
@@ -590,12 +603,13 @@ impl Particles {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct WhitewaterParticles {
-    /// World-space centres (3×f32, scene units). NaN and infinite ones are not drawn.
+    /// World-space centres (3×f32, scene units). NaN, infinite and huge ones are not drawn.
     pub positions: Stream,
     /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
-    /// Radii of the whitewater particles (f32, scene units, (0, ∞)). With `None`, and for radii of 0 or less,
-    /// [`WhitewaterSettings::radius`] is used.
+    /// Radii of the whitewater particles (f32, scene units, (0, ∞)), before [`WhitewaterSettings::sizes`] and
+    /// [`bubble_size`](WhitewaterSettings::bubble_size) reduce them. With `None`, and for radii that are 0, negative or
+    /// not finite, [`WhitewaterSettings::radius`] is used.
     pub radii: Option<Stream>,
     /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
@@ -607,8 +621,9 @@ pub struct WhitewaterParticles {
     /// Packets (groups with bounding boxes) of these particles; they need
     /// [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets). Particles of a packet outside the
     /// view are not read, nor, for shadows, those of a packet outside the light's maps. If the particles have
-    /// [`radii`](Self::radii), the boxes have to enclose the spheres, otherwise the centres. The raster path reads
-    /// all packets. With `None` each particle is culled on its own.
+    /// [`radii`](Self::radii), the boxes have to enclose the spheres, otherwise the centres. `WhitewaterSplat::Raster`
+    /// (feature `diagnostics`) and [`BubbleConfig::crossfade`] ignore the packets: they read, and draw, particles
+    /// whether they are in a packet or not. With `None` each particle is culled on its own.
     pub packets: Option<Packets>,
     /// Depth image of a fluid surface of the host, such as a sea, in the camera's depth convention. The water surface
     /// of a pixel is then the nearer of this one and the particles' water. The image may have any size and is sampled
@@ -676,11 +691,11 @@ impl WhitewaterParticles {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Blobs {
-    /// Centre (world space) and radius of each blob (4×f32). Entries with a non-finite or huge centre or a
-    /// radius ≤ 0 are ignored.
+    /// Centre (world space) and radius of each blob (4×f32). Entries with a number that is not finite or huge, or with
+    /// a radius ≤ 0, are ignored.
     pub spheres: Stream,
-    /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
-    /// any length; zero means identity. `None`: all are the identity.
+    /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last), of any
+    /// length from 1e-6 to 1e6. Others, such as zero, mean the identity. `None`: all are the identity.
     pub rotations: Option<Stream>,
     /// Ids that identify blobs from frame to frame (u32). A blob's id selects one of the precomputed variants and its
     /// soap films. With `None` the index is used.
@@ -738,12 +753,13 @@ pub struct Shore {
     /// Where shores are. `None`: no shoreline foam. [`Shoreline::Map`] and [`Shoreline::Screen`] need a
     /// surface.
     pub shoreline: Option<Shoreline>,
-    /// A single-channel mask over the view that suppresses contact foam: 0 completely, 1 not at all. It may have any
-    /// size and is only sampled. With `None` the foam texture, tiled over the world, takes its place.
+    /// A single-channel mask over the view that suppresses contact foam: where it is 1 not at all, where it is 0 as
+    /// strongly as [`ContactSettings::mask`](crate::shore::ContactSettings::mask) says. It may have any size and is
+    /// only sampled. With `None` the foam texture, tiled over the world, takes its place.
     pub mask: Option<HostImage>,
     /// Depth bias in scene units, [0, 1000], default 0: scene geometry that lies at most this far in front of the
-    /// water's surface is treated as behind it, so it does not hide shoreline and contact foam. Increase it if the
-    /// scene's depth contains the water's surface.
+    /// host's water surface or strip does not hide shoreline foam. Increase it if the scene's depth contains the
+    /// water's surface. Contact foam appears only where the geometry is not in front of the surface, whatever the bias.
     pub bias: f32,
 }
 
@@ -914,7 +930,7 @@ impl<'a> SurfaceFoamStep<'a> {
 pub struct GeneratorStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// World-space centres (3×f32, scene units). Non-finite ones are ignored.
+    /// World-space centres (3×f32, scene units). A particle with a non-finite or huge position or velocity is ignored.
     pub positions: Stream,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
@@ -1049,8 +1065,8 @@ pub struct Previous {
 #[non_exhaustive]
 pub struct Shadow {
     /// The shadow map or mask. With [`Shadows::Map`] and [`Shadows::Convolution`] it is the scene's depth from the
-    /// light, of any size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the
-    /// fluid and 0 where it does not. `rect` is the part that is used.
+    /// light, of any size; points outside the map are lit. With [`Shadows::Mask`] it has one channel over the view, 1
+    /// where the sun shines on the fluid and 0 where it does not. `rect` is the part that is used.
     pub image: HostImage,
     /// View-projection matrix of the shadow map, from world space to Vulkan's clip space: four columns, orthographic or
     /// perspective, standard or reversed depth. Not read if `image` is a mask.
@@ -1081,7 +1097,9 @@ impl Shadow {
     }
 }
 
-/// A sphere in the world. The light's maps are fitted to it: water and foam outside of it cast no shadows.
+/// A sphere in the world. The light's maps cover the square that encloses it as seen from the sun. Water and foam
+/// beside this square cast no shadows, and points beside it receive none. Water and foam between the sun and the square
+/// cast shadows even if they are outside the sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightVolume {
     /// Centre, world space, finite.
@@ -1116,9 +1134,10 @@ pub struct Frame<'a> {
     /// elsewhere; with [`Config::light_map_size`] all of its `rect` is written. The size of its `rect` is the frame's
     /// size, at most [`Config::extent`].
     pub output: HostImage,
-    /// The scene behind the water, with linear colour, only sampled. It may be the image of `output`: then the `rect`
-    /// of `output` is copied first, and the image needs transfer-source usage. A separate image may have another size
-    /// than the output.
+    /// The scene behind the water, with linear colour, only sampled. With [`Config::in_place`] it may be the image of
+    /// `output`. Then the `rect` of `output` is copied first, for which the image needs transfer-source usage; with
+    /// [`Config::light_map_size`] it is sampled instead of copied. A separate image may have another size than the
+    /// output.
     pub scene_color: HostImage,
     /// Depth image of the scene in the camera's convention, only sampled. It may have another size than the output.
     pub scene_depth: HostImage,
@@ -1133,14 +1152,14 @@ pub struct Frame<'a> {
     pub shore: Option<Shore>,
     /// The camera.
     pub camera: Camera,
-    /// The shadow that the host's scene casts on water and foam. It has to be given exactly if [`Config::shadow`] is
-    /// set. Default `None`.
+    /// The shadow that the host's scene casts on water and foam. It has to be given if [`Config::shadow`] is set, and
+    /// has to be `None` (default) otherwise.
     pub shadow: Option<Shadow>,
-    /// The sphere that contains the water and foam that cast shadows and the part of the scene that receives them. It
-    /// has to be given exactly if [`Config::light_map_size`] is set. Default `None`.
+    /// The sphere that contains the water and foam that cast shadows and the part of the scene that receives them.
+    /// It has to be given if [`Config::light_map_size`] is set, and has to be `None` (default) otherwise.
     pub light_volume: Option<LightVolume>,
-    /// The previous frame, for motion vectors ([`Config::motion`]). With `None`, as in a first frame, all vectors are
-    /// zero.
+    /// The previous frame, for motion vectors. Without [`Config::motion`] it has to be `None`. With `None`, as in a
+    /// first frame, all vectors are zero.
     pub previous: Option<Previous>,
     /// Settings that are uniforms.
     pub settings: &'a Settings,
@@ -1222,14 +1241,15 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// All settings that may change from frame to frame at no cost. Where a range is documented as ending at ∞, the
-/// largest accepted value is 1e12, so that a product of a few values stays finite.
+/// All settings that may change from frame to frame at no cost. Where the range of one of these settings is documented
+/// as ending at ∞, the largest accepted value is 1e12, so that a product of a few values stays finite.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
     /// World up direction, any length except 0, default +y. It defines the horizon (rays that water reflects below it
-    /// meet more water), the level ground of [`Light::irradiance`], the direction in which soap films drain, and the
-    /// level surfaces of shores. Environments have an up direction of their own ([`Sky::up`](crate::Sky),
+    /// meet more water), what is level (the ground of [`Light::irradiance`], the water of
+    /// [`Wavelets`](crate::water::Wavelets), the surfaces of shores), the depth of water above the scene, and the
+    /// direction in which soap films drain. Environments have an up direction of their own ([`Sky::up`](crate::Sky),
     /// [`Equirectangular::up`](crate::Equirectangular)), and simulations have their gravity.
     pub up: [f32; 3],
     /// Layered water.
@@ -1283,8 +1303,8 @@ impl Settings {
     /// with +y up. All lengths, speeds and optical densities of these settings follow from the two numbers; those of
     /// `shore` follow from `units_per_metre` alone. For another sky see [`with_light`](Self::with_light).
     ///
-    /// The settings of a frame's input or of a simulation are not among these settings, and the host sets them: radii of
-    /// whitewater particles, [`Shore::bias`], `BlobSimulationSettings`
+    /// The settings of a frame's input or of a simulation are not among these settings, and the host sets them: radii
+    /// of whitewater particles, [`Shore::bias`], [`Shadow::bias`], `BlobSimulationSettings`
     /// ([`in_units`](crate::bubbles::BlobSimulationSettings::in_units)), [`GeneratorSettings`]
     /// ([`with_gravity`](GeneratorSettings::with_gravity)) and the Weber number's scale
     /// ([`WeberSettings::weber_in`]).
@@ -1313,10 +1333,10 @@ impl Settings {
     }
 
     /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of thickness,
-    /// foam, spray and light on foam. It is meant for a configuration with `Rule::Source` as `Config.rule`
-    /// (both with the feature `diagnostics` only), [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`],
-    /// [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
-    /// [`Shadows::Convolution`](crate::water::Shadows).
+    /// foam, spray and light on foam. It is meant for a configuration with `Rule::Source` as `Config.rule` (both with
+    /// the feature `diagnostics` only), [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
+    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
+    /// [`Config::shadow`] of [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {
             water: WaterSettings::thesis(spacing),
@@ -1350,10 +1370,11 @@ pub struct Light {
     pub direction: [f32; 3],
     /// Radiance of the sun's highlight, linear RGB, [0, ∞).
     pub color: [f32; 3],
-    /// Mean radiance of the environment, linear RGB, [0, ∞). It is the light that the water scatters.
+    /// Mean radiance of the environment, linear RGB, [0, ∞). Water scatters this light, except water of
+    /// [`Medium::Turbid`](crate::water::Medium), which scatters `irradiance`.
     pub ambient: [f32; 3],
-    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞). It is the light on foam and spray in the
-    /// sun.
+    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞). It is also the light on foam and spray that
+    /// are in the sun.
     pub irradiance: [f32; 3],
     /// Irradiance of level ground in the sun's shadow, linear RGB, [0, ∞): light of the sky, and light that sunlit
     /// surroundings reflect.
@@ -1380,10 +1401,10 @@ impl Light {
     }
 }
 
-/// An intermediate image of `record` that the host may read. The next `record` expects it in the layout of
-/// [`access`](Self::access) and overwrites it. If the host's commands read the image on the queue of `record`, they end
-/// with a barrier from this use to `access`. If they read it on another queue, the submission of the next `record` must
-/// also wait for them, with a semaphore for example.
+/// An intermediate image of `record` that the host may read. The renderer's next `record` expects it in the layout of
+/// [`access`](Self::access) and overwrites it. The host therefore ends its commands that read the image with a barrier
+/// from this use to `access`. If it reads the image on another queue than that of `record`, it also makes the
+/// submission of the next `record` wait for these commands, with a semaphore for example.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {
@@ -1403,9 +1424,9 @@ pub struct Layer {
     /// Its format.
     pub format: vk::Format,
     /// The layer's size in texels; some layers have a lower resolution than the picture. For `water.surface` and
-    /// `water.iterations` it is the size at [`Config::smoothing_level`]. Their images are larger: they also hold the
-    /// coarser levels, at which near water is smoothed, and the back layer. `Diagnostics::levels` (feature
-    /// `diagnostics`) tells where.
+    /// `water.iterations` it is the size at [`Config::smoothing_level`]. The images of these two can be larger: they
+    /// also hold the coarser levels ([`Config::coarsening`]), at which near water is smoothed, and the back layer
+    /// ([`Config::sheets`]). `Diagnostics::levels` (feature `diagnostics`) tells where.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,
@@ -1434,8 +1455,8 @@ impl Recorded {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MemoryUse {
-    /// Bytes of images; depends on extent and levels.
+    /// Bytes of images; depends on the extent, the levels, and the sizes of environment and light maps.
     pub images: u64,
-    /// Bytes of buffers; depends on the maximum number of particles.
+    /// Bytes of buffers; depends on the maximum number of particles and on the extent.
     pub buffers: u64,
 }

@@ -65,9 +65,9 @@ pub struct SmoothingLevels {
     pub level: [SmoothingLevel; 7],
     /// Size of the images (x, y), tiles per row, number of coarser levels.
     pub atlas: [i32; 4],
-    /// Four constants: the iterations that the first level needs at eye depth 1 on the optical axis, divided by a
-    /// quarter of the maximum number of iterations; (width / height of a pixel)²; the depth difference in scene units
-    /// up to which neighbouring texels belong to one surface; 0.
+    /// Four constants: the square of the smoothing's width in texels of the first level at eye depth 1, divided by a
+    /// quarter of ([`Config::max_iterations`] − 2); (width / height of a pixel)², measured in the world; the depth
+    /// difference in scene units up to which neighbouring texels belong to one surface; 0.
     pub near: [f32; 4],
 }
 
@@ -105,10 +105,10 @@ impl SmoothingLevels {
 }
 
 /// Buffers with particle statistics, 256 bytes for each chunk (the particles that are processed at a time). Of a
-/// chunk's u32 words, word 0 is the number of small sprites, word 5 of large sprites, word 18 of particles dropped
-/// for non-finite positions, and word 19 of particles classified as spray (0 in `front`). The buffers have
-/// transfer-source usage. In `record` a compute shader writes them, and they are then read as indirect arguments and by
-/// compute and vertex shaders.
+/// chunk's u32 words, word 0 is the number of small sprites, word 5 of large sprites, word 18 of particles dropped for
+/// non-finite or huge positions, and word 19 of particles left out because they are only spray; in `front` the last two
+/// words are 0. The buffers have transfer-source usage. In `record` a compute shader writes them, and they are then
+/// read as indirect arguments and by compute and vertex shaders.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleCounts {
     /// Particles on the screen.

@@ -2,9 +2,9 @@
 
 use ash::vk;
 
-/// Everything that can go wrong at the border between host and library. [`BadInput`](Self::BadInput) is found
-/// before the first command is recorded. After any other error the host discards the command buffer that it
-/// handed in.
+/// Everything that can go wrong at the border between host and library. [`BadInput`](Self::BadInput) and
+/// [`NotRecorded`](Self::NotRecorded) are found before the first command is recorded. After any other error the host
+/// discards the command buffer that it handed in.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {

@@ -10,8 +10,9 @@
 //!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what
 //!    the device supports, [`EnabledFeatures::device_features`] builds the structures for `vkCreateDevice`, and
 //!    [`DeviceSupport::with_enabled`] returns what is supported if only some of them are enabled. Report truthfully
-//!    in [`EnabledFeatures`] what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and
-//!    [`Shading::Compute`](water::Shading) need [`EnabledFeatures::storage_image_write_without_format`].
+//!    in [`EnabledFeatures`] what you enabled. On a Vulkan 1.2 device surface foam, motion vectors,
+//!    [`Shadows::Convolution`](water::Shadows) and [`Shading::Compute`](water::Shading) need
+//!    [`EnabledFeatures::storage_image_write_without_format`].
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
 //! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Before both
@@ -41,24 +42,24 @@
 //!
 //! | input | what | needs | state |
 //! |---|---|---|---|
-//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, or storage for [`Shading::Compute`](water::Shading); format `Config.output_format`; its `rect` is the frame, at most `Config.extent`; if it is also the scene, transfer source, and sampled with `Config.light_map_size` | `before` → `after` |
+//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, or storage for [`Shading::Compute`](water::Shading); format `Config.output_format`; its `rect` is the frame, at most `Config.extent`; if it is also the scene, transfer source, or with `Config.light_map_size` sampled | `before` → `after` |
 //! | `scene_color` | the scene behind the water; may be `output` itself (`Config.in_place`) | sampled, linear filtering | `before` → `after` |
 //! | `scene_depth` | device depth in the camera's convention; any size | sampled and depth attachment, a view of the depth aspect alone, single-sampled | `before` → `after` |
 //! | `particles.positions` | 3×f32, world space; NaN, infinite and huge ones are dropped and counted | storage buffer; any stride and offset that are multiples of 4 | `before` → `after` |
 //! | `particles.densities` | f32; 0 marks a particle that was just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, for culling | storage buffer, aligned offset | as above |
-//! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as above | as above |
+//! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as `particles.positions` | as above |
 //! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with [`Config::noise`] | as above | as above |
 //! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`SurfaceFoamState::foam`]) | as above | as above |
 //! | `whitewater.positions` | with `Config.whitewater`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
 //! | `whitewater.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |
-//! | `whitewater.count` | as `particles.count` | as above | as above |
-//! | `whitewater.packets` | as `particles.packets`, with `WhitewaterConfig::packets` | as above | as above |
+//! | `whitewater.count` | as `particles.count` | as `particles.count` | as above |
+//! | `whitewater.packets` | as `particles.packets`, with `WhitewaterConfig::packets` | as `particles.packets` | as above |
 //! | `whitewater.fluid_depth` | depth of a fluid surface of your own, in the camera's convention; any size; optional | sampled and depth attachment, single-sampled | `before` → `after` |
-//! | `bubbles.spheres` | with `Config.bubbles`: 4×f32, centre and radius of soap-foam blobs, world space; entries with a non-finite centre or a radius ≤ 0 are ignored | as above | as above |
+//! | `bubbles.spheres` | with `Config.bubbles`: 4×f32, centre and radius of soap-foam blobs, world space; entries with a non-finite or huge number or a radius ≤ 0 are ignored | storage buffer; any offset and stride that are multiples of 4 | as above |
 //! | `bubbles.rotations`, `ids` | orientation quaternions (4×f32) and ids (u32) per blob; both optional | as above | as above |
-//! | `bubbles.count` | as `particles.count` | as above | as above |
+//! | `bubbles.count` | as `particles.count` | as `particles.count` | as above |
 //! | `shore.surface`, `mask` | with `Config.shore`: the height of your water, or its depth in the camera's convention; a single-channel mask that suppresses contact foam; any size | sampled (a depth: and depth attachment), single-sampled | `before` → `after` |
 //! | `shore.shoreline` | a mesh strip: 3×f32 position and f32 shore coordinate per vertex, u32 indices; or the distances of a [`shore::ShoreMap`] | storage buffers | as above |
 //! | `shadow` | with `Config.shadow`: the sun's depth map with its matrix, any size in any frame, or a mask over the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
@@ -72,8 +73,8 @@
 //! a surface point in this frame minus its position in the previous frame ([`Frame::previous`]), in pixels, y down.
 //! Water and foam have the motion of their own surface, from the velocities of the particles near it, not the motion
 //! of the scene behind it. The scene is taken as static, so its vectors come from the camera alone. An engine with
-//! motion vectors of its own takes these where there is water: where `water.depth` or `surface_foam` is less than
-//! 1e10. (`surface_foam` has the resolution of the thickness.)
+//! motion vectors of its own takes these where there is water: where the layer `water.depth` or `surface_foam`
+//! ([`Config::keep_layers`]) is less than 1e10. (`surface_foam` has the resolution of the thickness.)
 //!
 //! # Promises
 //!
@@ -82,16 +83,16 @@
 //!   copied first, or if the lit scene is drawn to it. Core and synchronization validation report nothing.
 //! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.light_map_size` the
 //!   whole view is written: the scene with shadows and caustics.
-//! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer
-//!   and call [`Renderer::abandon`].
+//! - Every [`Error::BadInput`] and [`Error::NotRecorded`] is found before the first command. After any other error
+//!   discard the command buffer and call [`Renderer::abandon`].
 //! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees the objects that they replaced as
-//!   soon as every slot that used them has finished. Only construction, `resize`, `reconfigure`, `collect` and
-//!   `destroy` call the allocator.
+//!   soon as every slot that used them has finished. Only construction, `resize`, `reconfigure`, `collect`, `abandon`
+//!   and `destroy` call the allocator.
 //! - Equal inputs give equal pictures on one device, whatever the order of the particles, because sums add integers,
-//!   or multiples of a step that floats represent exactly. The order can matter in three cases: splats that a raster
-//!   path adds by blending; light maps some hundred spacings from the centre of [`Frame::light_volume`], where sums
-//!   are only nearly exact; and whitewater by raster, which rounds sums beyond 256 and shows the first of two
-//!   particles at the same depth.
+//!   or multiples of a step that floats represent exactly. The order can matter in four cases: particles without ids,
+//!   whose indices then stand for ids; splats that a raster path adds by blending; light maps some hundred spacings
+//!   from the centre of [`Frame::light_volume`], where sums are only nearly exact; and whitewater by raster, which
+//!   rounds sums beyond 256 and shows the first of two particles at the same depth.
 //!
 //! # Demands
 //!
@@ -124,7 +125,7 @@
 //! | smoothing: coarser levels for near water (`coarsening`) | 1½ w h | 1.3 MiB | 3.0 MiB |
 //! | smoothing: the farther layer (`sheets`) | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | thickness and its sums at quarter resolution | ¾ w h | 0.7 MiB | 1.5 MiB |
-//! | two layers of water: thickness of each, boundaries, depth of the farther (`sheets`) | 2½ w h | 2.2 MiB | 4.9 MiB |
+//! | two layers of water: thickness of each, cells, boundaries, depth of the farther (`sheets`) | 3½ w h | 3.1 MiB | 6.9 MiB |
 //! | cells of pass `front` | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
@@ -148,7 +149,7 @@
 //! | filtered host shadow map (`Shadows::Convolution`), N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, instead of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `light_map_size`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
-//! | ellipsoids: grid, shapes, lists (`kernels`); with `surface_foam` 8 n more, with `spray` 4 n | 108 to 124 n | 7.0 to 7.8 MiB for 65 536 | 1.1 to 1.2 GB for 10 million |
+//! | ellipsoids: grid, shapes, lists (`kernels`); with `surface_foam` 8 n more, with `spray` 4 n | 108 to 124 n | 6.8 to 7.5 MiB for 65 536 | 1.1 to 1.2 GB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid

@@ -122,7 +122,8 @@ impl Renderer {
 
     /// Records the initial contents of resources that are read before they are written, and the precomputed data of
     /// bubble foam and shoreline foam. Call it once before the first `record`, and again if `reconfigure` returns
-    /// true. It removes the environment: call [`record_environment`](Self::record_environment) after it.
+    /// true. It removes the environment, so call [`record_environment`](Self::record_environment) after it. It also
+    /// replaces the host's foam texture ([`record_foam_texture`](Self::record_foam_texture)) by the built-in one.
     ///
     /// # Safety
     /// `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before any frame.
@@ -172,7 +173,8 @@ impl Renderer {
     /// [`EnvironmentSource::Black`] for no reflection.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`] without a recorded set-up; an error for a bad slot or up direction; Vulkan errors.
+    /// [`Error::NotRecorded`] without a recorded set-up; [`Error::BadInput`] for a bad slot or a bad number or
+    /// direction in `source`; Vulkan errors.
     ///
     /// # Safety
     /// The conditions of [`record`](Self::record) hold; a frame may follow in the same slot and command buffer. At
@@ -202,8 +204,8 @@ impl Renderer {
     ///
     /// # Errors
     /// `record` returns [`Error::BadInput`] with the name of a bad field, and [`Error::NotRecorded`] if the set-up or
-    /// an environment has not been recorded. It returns both before it records any command; after any other error
-    /// discard the command buffer.
+    /// an environment has not been recorded. It returns these two errors before it records any command. After any other
+    /// error, discard the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// `cmd`, in which the frame is recorded, is a primary command buffer of the host's queue family. It is
@@ -422,9 +424,9 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before the first. It never waits: while a frame
-    /// is still running, it returns the times of the previous one. Best read after the slot's fence and before its
-    /// next record.
+    /// Times of the slot's last finished frame, pass by pass; empty before the first, and if the queue family has no
+    /// timestamps. It never waits: while a frame is still running, it returns the times of the previous one. Best read
+    /// after the slot's fence and before its next record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -470,11 +472,11 @@ impl Renderer {
         self.retired.len()
     }
 
-    /// Changes the output's size. Legal with frames in flight.
+    /// Changes [`Config::extent`], the maximum size of a frame. Legal with frames in flight.
     ///
     /// # Errors
-    /// A bad extent changes nothing. After any other error (no memory) `record` refuses frames
-    /// until a resize has succeeded.
+    /// A bad extent changes nothing. After any other error (no memory) `record` refuses frames until a `resize` or
+    /// [`reconfigure`](Self::reconfigure) has succeeded.
     pub fn resize(&mut self, extent: vk::Extent2D) -> Result<(), Error> {
         let config = Config { extent, ..self.config };
         self.check_config(&config)?;

@@ -54,8 +54,8 @@ pub struct SurfaceFoamState {
 }
 
 impl SurfaceFoamState {
-    /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for the phase
-    /// between water and foam, and 8 for foam amount and age. It starts without foam; the first step needs no
+    /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for its phase
+    /// (water, foam or a transition), and 8 for foam amount and age. It starts without foam; the first step needs no
     /// [`record_reset`](Self::record_reset).
     ///
     /// # Errors
@@ -171,8 +171,8 @@ impl SurfaceFoamState {
 
     /// Foam amount (0 to 1) and age (seconds), two `f32` for each particle, in the order of the particles in the last
     /// step: the input [`Particles::surface_foam`](crate::Particles::surface_foam). A step leaves this buffer ready
-    /// to be read by shaders and copies, and the next step waits for the frames that were recorded in between, so
-    /// [`Particles::before`](crate::Particles::before) and `after` need not cover it. The buffer stays the same
+    /// for reads by compute shaders, vertex shaders and copies, and the next step waits for reads recorded before it,
+    /// so [`Particles::before`](crate::Particles::before) and `after` need not cover it. The buffer stays the same
     /// during the life of the state.
     pub fn foam(&self) -> Stream {
         let buffer = &self.classify.foam;

@@ -2,9 +2,9 @@
 //!
 //! Not in the thesis. This depth has half the resolution of the front layer's smoothing (one level coarser), with one
 //! sample per texel, because it is only seen through water. It is put into the smoothing images beside the front
-//! layer's levels, so every form of the smoothing processes it. Only tiles near a boundary (the depth that separates
-//! the two layers) are computed, if `thickness` has kept that boundary. The nearest boundary of each block of 16×16
-//! pixels is found first, so that most spheres need not be compared with each texel.
+//! layer's levels, so every form of the smoothing processes it. It is computed only in tiles near a boundary (the
+//! depth that separates the two layers) that `thickness` has kept. The nearest boundary of each block of 16×16 pixels
+//! is found first, so that most spheres need not be compared with each texel.
 //! Reads: the list of `cull`, boundaries, depth. Writes: blocks, depth of the back layer; for its levels both
 //! smoothing images, plan, each tile's work.
 

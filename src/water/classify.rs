@@ -2,10 +2,10 @@
 //! Sec. 3.2). A particle can be partly water and partly foam, as in Sec. 3.2.1 of the thesis; in its Listing A.14 it
 //! is one or the other.
 //!
-//! The state of each particle (foam and age) is stored by particle id in a hash table. Each step writes a new table
-//! from the previous one, so particles may be reordered, appear and vanish, and the result does not depend on their
-//! order. A table larger than one binding is split into parts, each its own hash table; each step processes the parts
-//! one after the other.
+//! The state of each particle (its phase between water and foam, a timer, and its age) is stored by particle id in a
+//! hash table. Each step writes a new table from the previous one, so particles may be reordered, appear and vanish,
+//! and the result does not depend on their order. A table larger than 128 MiB is split into parts, each its own hash
+//! table; each step processes the parts one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use crate::gpu::memory::MemoryLocation;

@@ -1,11 +1,11 @@
 //! Pass `cull`: turns the host's particles into the library's list of visible spheres (thesis Sec. 4.3).
 //!
-//! Drops particles with NaN or infinite positions, leaves out those of low density (they are spray), culls the rest
-//! against the frustum, and writes the survivors as eye-space spheres of 16 bytes (32 with the shape of an ellipsoid).
-//! Spheres whose sprite is small on the screen fill the list from the front, those whose sprite is large from the
-//! back, both without gaps. The passes that draw water read only this list, by indirect draws and dispatches. Unlike
-//! in the thesis the test runs on the GPU, and if the host gives no packets (groups of particles with a bounding box)
-//! each particle is tested.
+//! Drops particles with NaN, infinite or huge positions, leaves out those of low density (they are spray) and those
+//! that are all foam, culls the rest against the frustum, and writes the survivors as eye-space spheres of 16 bytes
+//! (32 with the shape of an ellipsoid). Spheres whose sprite is small on the screen fill the list from the front,
+//! those whose sprite is large from the back, both without gaps. The passes that draw water for the camera read this
+//! list, or what pass `front` keeps of it, by indirect draws and dispatches. Unlike in the thesis the test runs on the
+//! GPU, and if the host gives no packets (groups of particles with a bounding box) each particle is tested.
 //!
 //! If the particles exceed the range of one storage-buffer binding they are processed in chunks, each with its own
 //! counts and its own part of the list.

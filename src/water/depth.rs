@@ -1,9 +1,9 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
-//! Pass `depth` computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a
-//! billboard by N_z·r (the z component of the sphere's normal, times the radius), which is wrong off the axis and
-//! near the camera. Two paths give the same picture: sprites with MIN blending, and a compute shader with integer
-//! atomics on the same image.
+//! Pass `depth` computes the exact nearest intersection of each pixel's ray with each sphere or ellipsoid. The thesis
+//! offsets a billboard by N_z·r (the z component of the sphere's normal, times the radius), which is wrong off the
+//! axis and near the camera. Two paths give the same picture: sprites with MIN blending, and a compute shader with
+//! integer atomics on the same image.
 //! Reads: the list of spheres of pass `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;

@@ -1,10 +1,11 @@
-//! Pass `front`: selects the spheres that can be visible, for the depth pass.
+//! Pass `front`: selects the spheres that can be visible, for the passes `depth` and `gaps`.
 //!
 //! Not in the thesis, which draws every particle: for each cell of 4×4 pixels, pass `front` finds the nearest depth
-//! at which a single sphere covers the cell completely. Then it removes every sphere that lies behind this depth in
-//! all cells that the sphere touches. The result is exact: the depth image is the same to the bit as without this
-//! pass. In a splashing pool that is nine particles deep, six of ten spheres are removed; in deeper water the depth
-//! pass costs only as much as the spheres at the surface.
+//! behind which nothing is visible, because a single sphere in front of it covers the whole cell. Then it removes
+//! every sphere that lies behind this depth in all cells that the sphere touches. Large spheres are few, and are kept
+//! without this test. The result is exact: the depth image is the same to the bit as without this pass. In a splashing
+//! pool that is nine particles deep, six of ten spheres are removed; in deeper water the depth pass costs only as much
+//! as the spheres at the surface.
 //! Reads: the list of `cull`. Writes: cells, the front list.
 
 use crate::gpu::memory::MemoryLocation;

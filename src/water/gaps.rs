@@ -53,8 +53,8 @@ pub fn sheets_constant(config: &Config) -> (u32, u32) {
     (8, config.sheets)
 }
 
-/// Access of the passes that read the boundaries between layers: `back` and `thickness`, and `composite` as a compute
-/// or a fragment shader.
+/// Access of the passes that read the boundaries between layers: `thickness`, `back` and `split`, and `composite` as a
+/// compute or a fragment shader.
 pub const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 
 /// The pass.

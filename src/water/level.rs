@@ -1,6 +1,6 @@
 //! Pass `level`: repeats pass `reduce` at coarser resolutions (levels of the smoothing), for water so near to the
-//! camera that smoothing it at the configured resolution would take more than `Config::max_iterations` iterations.
-//! Each pixel shows the level that its distance selects, or blends two levels.
+//! camera that smoothing it at the configured resolution would take more than a quarter of the
+//! `Config::max_iterations` iterations. Each pixel shows the level that its distance selects, or blends two levels.
 //!
 //! The pass `level` is not in the thesis, where the limit on iterations leaves near water rough. The next coarser level
 //! of the smoothing needs a quarter of the iterations for the same width. All levels, including those of the back

@@ -14,7 +14,7 @@
 //! set of its own surface.
 //!
 //! The image of pass `motion` is RG32F: with half floats a vector of a hundred pixels could be wrong by a
-//! thirty-second of a pixel, one of a thousand pixels by half a pixel.
+//! thirty-second of a pixel, one of a thousand pixels by a quarter of a pixel.
 //! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth.
 //! Writes: motion, RG32F, every pixel.
 

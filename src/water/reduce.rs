@@ -3,9 +3,10 @@
 //! or more not to the depth of a single drop. From this unsmoothed depth it computes the plan: each pixel's number of
 //! smoothing iterations and their step size.
 //!
-//! Reads: water depth, scene depth. Writes: water depth (emptied where the scene hides the water), both smoothing
-//! images, plan, each tile's work (what has to be done in it); clears the work of the coarser levels' tiles and the
-//! counters of the pass `level`.
+//! Reads: water depth, scene depth; depths of surface foam, whitewater and bubble foam, and spray, to find the tiles
+//! that show them. Writes: water depth (emptied where the scene hides the water), both smoothing images, plan, each
+//! tile's work (what has to be done in it); clears the work of the coarser levels' tiles and the counters of the pass
+//! `level`.
 
 use ash::vk;
 

@@ -1,5 +1,5 @@
-//! Settings of the layered water. Lengths scale with the particle spacing, so the look does not change with
-//! resolution or unit.
+//! Settings of the layered water. Most lengths are in particle spacings or in drawn radii, which are a fixed part of
+//! the spacing, so that the look does not change with the number of particles or the unit of length.
 
 pub use super::wavelets::Wavelets;
 
@@ -10,8 +10,9 @@ pub const RADIUS_PER_SPACING: f32 = 0.656;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Splat {
-    /// Particles are drawn as point sprites with fixed-function blending; those larger than the device's largest
-    /// point are drawn as quads.
+    /// Particles are drawn as sprites with fixed-function blending. A sprite is a point, or a quad where the device
+    /// cannot draw it as a point, for example because it is larger than the device's largest point. Sprites of surface
+    /// foam are always quads.
     Raster,
     /// A compute shader with atomics.
     Compute,
@@ -35,8 +36,8 @@ pub enum Shadows {
     Mask,
     /// A shadow map of the scene, with percentage-closer filtering.
     Map,
-    /// The host's shadow map, converted by the pass `convolution` to a convolution shadow map as in the thesis. Such
-    /// a map is filtered before the depth comparison, so a shadow of any softness costs the same.
+    /// The host's shadow map, converted by the pass `convolution` to a convolution shadow map as in the thesis. Such a
+    /// map is filtered before the depth comparison, so a look-up costs the same for a shadow of any softness.
     Convolution(Convolution),
 }
 
@@ -58,12 +59,12 @@ crate::contract::with!(SurfaceNoiseSettings);
 #[non_exhaustive]
 pub struct ShadowFilter {
     /// Width of the box filter of the shadow, in texels of the host's shadow map, [0, 256], default 3, which is the
-    /// footprint of the filter of [`Shadows::Map`]. The filter is never narrower than a texel of the image that the
-    /// pass `convolution` makes from this map.
+    /// width of the filter of [`Shadows::Map`]. The filter is never narrower than a texel of the image that the pass
+    /// `convolution` makes from this map.
     pub width: f32,
     /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the reconstructed visibility of the sun
-    /// oscillates by a twentieth (ringing) in lit and in shadowed areas, unless `scale` is above 1.1, which clips
-    /// this. With more damping a shadow starts farther from its caster.
+    /// oscillates by a twentieth (ringing) in lit and in shadowed areas; a `scale` above 1.12 clips this. With more
+    /// damping a shadow starts farther from its caster.
     pub damping: f32,
     /// Depth bias of the shadow, as a fraction of the depth over which the reconstructed visibility rises from one
     /// half to 1; [0, 1]. With 1, the default, a point that touches its occluder is lit. With 0 it is half in shadow,
@@ -90,8 +91,8 @@ impl ShadowFilter {
     }
 }
 
-/// Which parts of the picture the composite contains, as in the thesis' debug views. Each value includes the parts of
-/// the values before it.
+/// Which parts of the picture the composite contains, as in the thesis' debug views. From `Background` to `Whole` each
+/// value adds something to what the previous value shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum DebugView {
@@ -101,8 +102,8 @@ pub enum DebugView {
     BackWater,
     /// Adds foam.
     SurfaceFoam,
-    /// Adds the water in front of the frontmost foam (all water where there is no foam). Reflections, highlights and
-    /// spray are still missing.
+    /// Adds the water in front of the frontmost foam. Where there is no foam, this is all water, or the front layer of
+    /// two layers. Reflections, highlights and spray are still missing.
     FrontWater,
     /// Adds reflections, highlights and spray: the complete picture.
     #[default]
@@ -113,13 +114,16 @@ pub enum DebugView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Rule {
-    /// The thesis' rule (Sec. 3.1): a pixel at depth d gets `r_w / (C d)` iterations, where r_w is a radius in the
-    /// world and the product `C d` is the width of the pixel in the world. Each iteration changes the pixel's depth
-    /// in proportion to the surface's curvature.
+    /// The thesis' rule (Sec. 3.1): a pixel at depth d gets `⌊r_w / (C d)⌋ + 1` iterations, where r_w is a length in
+    /// the world, 4.8 drawn radii, and the product `C d` is the width of the pixel in the world; at most
+    /// [`Config::max_iterations`](crate::Config::max_iterations). Each iteration changes the pixel's depth in
+    /// proportion to the surface's curvature.
     Source,
-    /// Mean curvature flow that smooths over the same width along the surface at any distance and slant.
+    /// Mean curvature flow that smooths over the same width along the surface ([`WaterSettings::smoothing_width`]) at
+    /// any distance and slant.
     ConstantWidth,
-    /// The baseline: the same iteration count for all pixels, with the thesis' step (van der Laan et al. 2009).
+    /// As van der Laan et al. (2009): every pixel with water gets this number of iterations, at most
+    /// [`Config::max_iterations`](crate::Config::max_iterations), with the step of [`Rule::Source`].
     Fixed(u32),
 }
 
@@ -127,17 +131,18 @@ pub enum Rule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Smoothing {
-    /// One raster pass per iteration. In every fifth iteration an occlusion query counts the active pixels; if there
-    /// are none, the GPU skips the remaining iterations.
+    /// One raster pass per iteration. In every fifth iteration an occlusion query counts the pixels that are still
+    /// being smoothed; if there are none, the GPU skips the remaining iterations.
     Query(Gate),
-    /// One dispatch per iteration, over the tiles that still have active pixels.
+    /// One dispatch per iteration, over the tiles with pixels that are still being smoothed.
     Tiles,
-    /// Each compute dispatch runs several iterations in shared memory, over the tiles that still have active pixels.
+    /// Each compute dispatch runs several iterations in shared memory, over the tiles with pixels that are still being
+    /// smoothed.
     Fused,
 }
 
-/// How the GPU skips the remaining iterations of [`Smoothing::Query`] once an occlusion query has found no active
-/// pixel. No variant waits for the host.
+/// How the GPU skips the remaining iterations of [`Smoothing::Query`] once an occlusion query has found that no pixel
+/// is being smoothed any more. No variant waits for the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Gate {
@@ -158,19 +163,21 @@ pub struct WaterSettings {
     pub spacing: f32,
     /// Rest density in the unit of the density stream, [1e-6, ∞), default 1000.
     pub rest_density: f32,
-    /// Particles below this fraction of the rest density are spray and are left out of the water, [0, ∞),
-    /// default 0.35 (an isolated particle has 0.318 with the usual cubic spline). With
-    /// [`Config::spray`](crate::Config), [`SpraySettings::all_spray_density`] replaces it.
+    /// Particles whose density is below this fraction of the rest density are not drawn: they are spray, too few
+    /// together to form a body of water. [0, ∞), default 0.35 (an isolated particle has 0.318 with the usual cubic
+    /// spline). With [`Config::spray`](crate::Config), which draws spray, [`SpraySettings::all_spray_density`]
+    /// replaces this fraction.
     pub density_threshold: f32,
-    /// Fraction of the rest density at and above which a particle has its full radius. Down to `density_threshold`
-    /// the radius falls to half. At least `density_threshold`, default 0.45.
+    /// Fraction of the rest density at and above which a particle has its full radius. Down to `density_threshold` the
+    /// radius falls to half. At least `density_threshold`, default 0.45. With [`Config::spray`](crate::Config),
+    /// [`SpraySettings::full_water_density`] replaces it.
     pub density_full: f32,
-    /// Width (standard deviation) of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. With 0.7
-    /// the particle lattice remains visible; with 2.5 water looks like silk. (The thesis' rule ignores this setting;
-    /// its radius r_w is 4.8 drawn radii.)
+    /// Width (standard deviation) of the smoothing along the surface in drawn radii (0.656 spacings each), [0, ∞),
+    /// default 1.5. With 0.7 the particle lattice remains visible; with 2.5 water looks like silk. (The smoothing
+    /// rules of the thesis and of van der Laan et al., which need the feature `diagnostics`, ignore this setting.)
     pub smoothing_width: f32,
     /// Where the depths of neighbouring pixels differ by more than this, there is a silhouette, and neither side is
-    /// smoothed with the other. In drawn radii, [0, ∞), default 5.3.
+    /// smoothed with the other. In drawn radii (0.656 spacings each), [0, ∞), default 5.3.
     pub depth_falloff: f32,
     /// Shape of the particles with [`Kernels::Ellipsoids`].
     pub ellipsoids: Ellipsoids,
@@ -194,8 +201,10 @@ pub struct WaterSettings {
     pub bed: Bed,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) bed: Bed,
-    /// Factor on the displacement of what is seen through the water by refraction, [0, ∞), default 0.25. Whatever the
-    /// factor, the displacement stays below a sixteenth of the picture's height.
+    /// Factor on the displacement, by refraction, of what is seen through the water, [0, ∞), default 0.25. Whatever
+    /// the factor, the displacement stays below a sixteenth of the picture's height. With [`Exit::TwoInterfaces`]
+    /// factor and limit do not apply where the water touches the scene: there the displacement follows from the index
+    /// of refraction.
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,
@@ -229,8 +238,9 @@ impl Default for WaterSettings {
 }
 
 impl WaterSettings {
-    /// The water of the source thesis' demo for a particle spacing: its unit of thickness, its colours and reflectance,
-    /// its highlight of the sun, and its formula for putting these together.
+    /// The water of the demo of the thesis (Bagar 2010) for a particle spacing: its unit of thickness, its colours and
+    /// reflectance, its highlight of the sun, and its formula for putting these together; the scene is not darkened
+    /// under water. The other settings have their defaults.
     pub fn thesis(spacing: f32) -> Self {
         let Medium::Source { base, falloff } = Medium::source(spacing) else {
             return Self::default();
@@ -264,15 +274,15 @@ const SOURCE_VOLUMES: f32 = 3.86;
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Compositing {
     /// With the reflectance F the result is `F·reflection + (1 − F)·light from behind + highlight`. Reflection and
-    /// highlight fade out where water is thinner than a quarter of the drawn radius. The reflecting surface is that
-    /// of the water in front of the frontmost foam, or of the water behind this foam if there is none in front. Foam
-    /// is placed at its mean depth.
+    /// highlight fade out where water is thinner than a quarter of the drawn radius. The reflecting surface is that of
+    /// the water in front of the frontmost foam, or, where no water is in front of it, that of the water behind it.
+    /// Foam is placed at its mean depth, but with [`Medium::Source`] at the depth of the frontmost foam.
     Mixed,
-    /// The thesis' composite (Listing A.20): reflection and highlight, times `sat(1 − a_wf + a_f)·(1 − a_wf)`, are
-    /// added to the full light from behind. `a_wf` is the transmittance of the water in front of the frontmost foam
-    /// (with [`Medium::Source`] by the last component of its falloff, with other media the mean of the channels), and
-    /// `a_f` is the transmittance of the foam. All foam is placed at the depth of the frontmost foam, and rays that
-    /// are reflected downwards see the environment's ground.
+    /// The thesis' composite (Listing A.20): reflection and highlight, times `clamp(1 − a_wf + a_f, 0, 1)·(1 − a_wf)`,
+    /// are added to the full light from behind. `a_wf` is the transmittance of the water in front of the frontmost
+    /// foam (with [`Medium::Source`] by the last component of its falloff, with other media the mean of the channels),
+    /// and `a_f` is the transmittance of the foam. All foam is placed at the depth of the frontmost foam, and rays
+    /// that are reflected downwards see the environment's ground.
     Source,
 }
 
@@ -290,20 +300,22 @@ pub enum Bed {
     /// refracted way to the camera. The index of refraction n belongs to the f0 of [`Fresnel::Schlick`]; it is 1.333
     /// with another variant.
     Submerged,
-    /// The scene is as bright as if it were dry, and lies straight behind the water (the thesis).
+    /// The scene is as bright as if it were dry (the thesis). No water counts as touching the scene: [`Exit`] treats
+    /// all water as having air behind it.
     Source,
 }
 
 /// What is visible through water with air behind it: jets, crowns, drops, sheets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
-    /// The view ray refracts at the front surface of the water; at its far surface it refracts again or is totally
-    /// reflected. Its directions follow from the slopes of both surfaces and the index of refraction of
-    /// [`WaterSettings::fresnel`] (1.333 if that has none). A screen-space march of 4 steps finds the scene on the
-    /// ray that leaves; a ray that meets no scene sees the environment (Wyman 2005). If a second layer of water,
-    /// which touches the scene, lies behind the air ([`Config::sheets`](crate::Config)), the ray sees this layer,
-    /// displaced as by a weak prism. A scene under the water is shown where the ray refracted at the front surface
-    /// meets it.
+    /// The view ray refracts at the front surface of the water; at the water's far surface it refracts again or is
+    /// totally reflected. Its directions follow from the slopes of both surfaces and the index of refraction of
+    /// [`WaterSettings::fresnel`] (1.333 if that has none). A screen-space march of 4 steps finds the scene on the ray
+    /// that leaves; a ray that meets no scene sees the environment (Wyman 2005). At most half of the light comes along
+    /// this ray; the rest comes from the scene straight behind, displaced by [`WaterSettings::refraction`]. If a
+    /// second layer of water, which touches the scene, lies behind the air ([`Config::sheets`](crate::Config)), mainly
+    /// this layer is seen, displaced as by a weak prism. Where the water itself touches the scene, the scene is shown
+    /// at the point where the ray refracted at the front surface meets it.
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis).
     Straight,
@@ -326,24 +338,26 @@ pub enum Kernels {
 /// How ellipsoids are fitted. No effect without [`Kernels::Ellipsoids`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoids {
-    /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. A neighbour at distance
-    /// d has the weight `1 − (d/reach)³`. The time of the pass `shape`, which fits them, grows with the cube of this
-    /// radius.
+    /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. A neighbour at distance d has
+    /// the weight `1 − (d/reach)³`. The time of the pass `shape`, which fits the ellipsoids, grows with the cube of
+    /// this radius.
     pub reach: f32,
-    /// Maximum ratio of the longest to the shortest half-axis of a particle's ellipsoid, [1, 8], default 2.5 (the
-    /// paper: 4). 1 gives spheres.
+    /// Maximum ratio of the longest to the shortest half-axis of a particle's ellipsoid, [1, 8], default 2.5 (Yu and
+    /// Turk: 4). 1 gives spheres.
     pub ratio: f32,
-    /// Sum of the neighbours' weights at which a particle becomes a complete ellipsoid, [0, 64], default 8. Below
-    /// half of this sum it is a sphere, as small drops are (in the paper it is one up to 25 neighbours); in between
-    /// it changes gradually. The sum is 2.9 in a line of particles, 11 in a single sheet of them, 32 inside water.
+    /// Sum of the neighbours' weights at and above which a particle is a complete ellipsoid, [0, 64], default 8. Below
+    /// half of this sum it is a sphere, as small drops are (Yu and Turk: up to 25 neighbours); in between its shape
+    /// changes gradually. With the default reach the sum is 2.9 in a line of particles, 11 in a single sheet of them,
+    /// 32 inside water.
     pub fewest: f32,
-    /// Factor on the radius of a particle with at most one neighbour, [0.25, 1], default 1. The factor rises to 1
-    /// while the sum of the neighbours' weights goes from 1.5 to 2.5. (The paper: 0.5 for up to 25 neighbours.)
+    /// Factor on the radius of a particle whose neighbours' weights add up to at most 1.5, such as one with a single
+    /// neighbour, [0.25, 1], default 1. While this sum goes on from 1.5 to 2.5, the factor rises to 1. (Yu and Turk:
+    /// 0.5 for up to 25 neighbours.)
     pub lone: f32,
     /// Fraction of the way to the weighted centre of its neighbourhood by which a particle is moved, [0, 1], default
-    /// 0.9 as in the paper. It smooths sheets and rims. The mean displacement of the neighbours is subtracted:
-    /// without that, as in the paper, water would shrink away from its walls. With 0 the pass `shape` takes half the
-    /// time.
+    /// 0.9 as in Yu and Turk. It smooths sheets and rims. Particles that stay spheres are not moved. The mean
+    /// displacement of the neighbours is subtracted: without that, as in the paper, water would shrink away from its
+    /// walls. With 0 the pass `shape` takes half the time.
     pub centred: f32,
 }
 
@@ -370,13 +384,13 @@ pub(crate) const EXIT_STEPS: u32 = 4;
 /// Index of refraction of water.
 pub(crate) const WATER_INDEX: f32 = 1.333;
 
-/// Height at its centre of the sprite that a particle adds to the thickness: `height·√(1 − ρ²)·exp(−2ρ²)`, where ρ is
-/// the distance from the centre in half-axes.
+/// Height of the sprite that each particle adds to the image of water thickness. The sprite is
+/// `height·√(1 − ρ²)·exp(−2ρ²)`, where ρ is the distance from the centre in half-axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Amplitude {
     /// The sprite's integral is the particle's volume, spacing³. Thickness is then the length of the water along z in
-    /// scene units, independent of the number of particles. Default.
+    /// scene units, however many particles resolve the same water. Default.
     Volume,
     /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle volumes, so
     /// the thickness is about four times that of [`Amplitude::Volume`].
@@ -437,14 +451,14 @@ impl Medium {
     /// visibly blue-green. Chosen by eye.
     pub const POOL: Self =
         Self::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.014, 0.03, 0.04] };
-    /// A lake, green: 3 mg/m³ of chlorophyll, by the sources of [`OCEAN`](Self::OCEAN), and dissolved organic matter,
-    /// which absorbs 0.4 per metre at 443 nm and at other wavelengths λ this times `exp(-0.0176 (λ - 443 nm))` (Babin
-    /// et al., J. Geophys. Res. 108(C7), 2003).
+    /// A lake, green: 3 mg/m³ of chlorophyll, computed from the publications that [`OCEAN`](Self::OCEAN) names, and
+    /// dissolved organic matter, which absorbs 0.4 per metre at 443 nm and at other wavelengths λ this times
+    /// `exp(-0.0176 (λ - 443 nm))` (Babin et al., J. Geophys. Res. 108(C7), 2003).
     pub const LAKE: Self = Self::turbid([0.322, 0.165, 0.408], [0.0205, 0.0232, 0.0287]);
     /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994). Absorption is that of
     /// Prieur and Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley gives it (Eq. 3.27, Table 3.7). Scattering is
-    /// that of sea water (Morel 1974) and of particles (Gordon and Morel 1983), of which the share 0.0183 goes
-    /// backwards (Petzold's particles). The diffuse attenuation that follows differs from Jerlov's table (Marine
+    /// that of sea water (Morel 1974) plus that of particles (Gordon and Morel 1983); of the latter the share 0.0183
+    /// goes backwards (Petzold's particles). The diffuse attenuation that follows differs from Jerlov's table (Marine
     /// Optics, 1976, Table XXVII) by less than a fifth.
     pub const OCEAN: Self = Self::turbid([0.273, 0.0639, 0.0252], [0.0036, 0.004_55, 0.007_07]);
     /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), the share
@@ -543,23 +557,26 @@ impl Fresnel {
 
 /// Surface foam formation: which of the water's particles are foam, by Weber number.
 ///
-/// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay
-/// times vary from particle to particle (thesis, Sec. 3.2).
+/// `We = scale·ρ·|v − air|²`, with density ρ and velocity v of the particle. A particle whose number reaches the
+/// threshold turns to foam within 0.25 to 0.5 seconds. Once it is foam and its number is below the threshold, the foam
+/// dissolves ([`foam_lifetime`](Self::foam_lifetime)). Both times vary at random from particle to particle (thesis,
+/// Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WeberSettings {
     /// Weber number at a density of 1 and a relative speed of 1, (0, ∞): the particle spacing divided by the surface
     /// tension ([`weber`](Self::weber)), or the factor of a reduced form ([`reduced`](Self::reduced)).
     pub scale: f32,
-    /// Weber number at and above which a particle foams, (0, ∞). A value does not transfer between simulations:
-    /// derive it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence,
-    /// which the host computes by the formula above.
+    /// Weber number at and above which a particle foams, (0, ∞). A value does not transfer between simulations: derive
+    /// it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence. The host
+    /// computes these as `scale·ρ·|v − air|²`.
     pub threshold: f32,
     /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
     pub foam_lifetime: f32,
     /// World velocity of the air, scene units per second, finite, default 0.
     pub air: [f32; 3],
-    /// Density of particles without a density stream, or with a density of 0 (just emitted), (0, ∞), default 1000.
+    /// Density that is used for all particles if there is no density stream, and for particles whose density is 0
+    /// (just emitted), negative or NaN. (0, ∞), default 1000.
     pub rest_density: f32,
     /// Seed of the random times, any value, default 0.
     pub seed: u32,
@@ -617,49 +634,51 @@ impl WeberSettings {
     }
 }
 
-/// Appearance of surface foam. No effect without [`Config::surface_foam`](crate::Config), except that
-/// [`pattern_period`](Self::pattern_period) and [`time`](Self::time) also apply to [`SpraySettings::clumps`].
+/// Appearance of surface foam. Without [`Config::surface_foam`](crate::Config) only three of these settings have an
+/// effect, and only on spray: [`pattern_period`](Self::pattern_period) and [`time`](Self::time) on
+/// [`SpraySettings::clumps`], [`shadow`](Self::shadow) on [`SpraySettings::shade`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceFoamSettings {
     /// Extinction per scene unit of foam along the ray, [0, ∞), default 0.4 / spacing: foam that is two particles
     /// thick hides about half of what is behind it.
     pub extinction: f32,
-    /// Rate k at which the colour changes from [`back_color`](Self::back_color) to
-    /// [`front_color`](Self::front_color): the front colour has the weight `1 − exp(−k·t)`, where t is the thickness
-    /// of the front layer along the ray. The front layer is the foam within [`front_depth`](Self::front_depth) behind
-    /// the frontmost foam. Per scene unit, [0, ∞), default 0.15 / spacing.
+    /// Rate k at which the colour changes from [`back_color`](Self::back_color) to [`front_color`](Self::front_color):
+    /// the front colour has the weight `1 − exp(−k·t)`, where t is the thickness of the front layer along the ray. The
+    /// front layer is the foam within [`front_depth`](Self::front_depth) behind the frontmost foam. Per scene unit,
+    /// [0, ∞), default 0.15 / spacing. No effect if [`front_power`](Self::front_power) is above 0.
     pub front_extinction: f32,
     /// Exponent p of an alternative rule for the front colour (thesis Sec. 3.2), [0, 64]: the weight of
-    /// [`front_color`](Self::front_color) is `(thickness of the front layer / front_depth)^p`. With 0, the default,
-    /// this rule is off and `front_extinction` applies.
+    /// [`front_color`](Self::front_color) is `(thickness of the front layer / front_depth)^p`, at most 1. With 0, the
+    /// default, this rule is off and `front_extinction` applies.
     pub front_power: f32,
     /// How far the front layer reaches behind the frontmost foam, scene units, [0, ∞), default 60 spacings. It ends
     /// softly over one more spacing. (With the thesis' 7 spacings drops of foam in front of other foam show as discs,
     /// because at each drop the layer starts at the drop and ends before the other foam.)
     pub front_depth: f32,
-    /// Speed at and above which a foam sprite is twice as long, along its motion, as it is wide. Spacings per second,
-    /// (0, ∞), default 21.
+    /// Speed at and above which a foam sprite is twice as long, along its motion, as it is wide. Slower sprites are
+    /// shorter, down to discs at rest, and so are sprites that move along the view. Spacings per second, (0, ∞),
+    /// default 21.
     pub motion_threshold: f32,
-    /// Strength of a noise that each sprite has on its own, as in the thesis, 0 (off, default) to 1. It fades out
-    /// where its cells are smaller than two texels of the thickness image. Either this strength or
-    /// [`pattern`](Self::pattern) has to be 0.
+    /// Strength of a noise that varies the thickness within a foam sprite. Each sprite has its own noise, as in the
+    /// thesis. 0 (off, default) to 1. The noise fades out where its cells are narrower than two texels of the
+    /// thickness image, and is gone at one. Either this strength or [`pattern`](Self::pattern) has to be 0.
     pub noise: f32,
     /// Speed at which [`noise`](Self::noise) changes: number of its cells that pass through a sprite per second of
     /// the particle's age, [0, 1e3], default 2.
     pub noise_rate: f32,
-    /// Strength of a noise that gathers foam into clumps and moves with it, [0, 2], default 1, 0 = off. With 1, a
-    /// tenth of the foam is at least twice as thick as without the noise, and a tenth at most a quarter as thick. Not
-    /// in the thesis. Has to be 0 if [`noise`](Self::noise) is used.
+    /// Strength of a noise that gathers foam into clumps and moves with it, [0, 2], default 1, 0 = off. With 1, about
+    /// a tenth of the foam's sprites are at least twice as thick as without the noise, and about a fifth at most a
+    /// quarter as thick. Not in the thesis. Has to be 0 if [`noise`](Self::noise) is used.
     pub pattern: f32,
     /// Size of the largest clumps, spacings, (0, 1e3], default 3.
     pub pattern_size: f32,
-    /// Time after which a clump that the foam's motion has stretched has been replaced by a new one, seconds,
-    /// (0, 1e3], default 1. Also the period of [`SpraySettings::clumps`].
+    /// Seconds after which a clump that the foam's motion has stretched has been replaced by a new one, (0, 1e3],
+    /// default 1. Also the period after which the [`lace`](Self::lace) and [`SpraySettings::clumps`] are renewed.
     pub pattern_period: f32,
     /// How much thin foam is torn into threads with clear holes between them, [0, 1]. The holes close where foam is
-    /// thick. With 0, the default, thin foam is an even veil. Threads cover as much area as the veil would. Not in
-    /// the thesis.
+    /// thick. With 0, the default, thin foam is an even veil. On average, threads and holes together hide as much as
+    /// the veil would. Not in the thesis.
     pub lace: f32,
     /// Size of the cells that contain the largest holes of the lace, spacings, (0, 1e3], default 4. Lace fades out
     /// where these cells become smaller than six pixels, and is gone at two.
@@ -675,30 +694,31 @@ pub struct SurfaceFoamSettings {
     /// Albedo of water with bubbles, linear RGB, 0 to 1, default 0.30, 0.62, 0.66: bubbles scatter all colours, and
     /// the water around them absorbs red.
     pub aerated_color: [f32; 3],
-    /// Time of the frame in seconds, which moves the clumps and the lace with the foam, and
-    /// [`SpraySettings::clumps`] with the spray. Default 0. If it stays constant, they stay in place, and foam and
-    /// spray move through them.
+    /// Time of the frame in seconds, finite, default 0. It moves the noise of [`pattern`](Self::pattern) and the lace
+    /// with the foam, and that of [`SpraySettings::clumps`] with the spray. If it stays constant, they stay in place,
+    /// and foam and spray move through them.
     pub time: f64,
     /// Foam thinner than this fades out, because thin veils look like steam. Scene units, [0, ∞), default one
     /// spacing, 0 = off. Not in the thesis.
     pub min_thickness: f32,
-    /// How strongly foam is shaded by the relief of its front layer, [0, 2], default 0.35: it is brighter where the
-    /// relief faces the sun and darker where it faces away.
+    /// How strongly foam is shaded as a relief, whose height is the thickness of the front layer of foam, [0, 2],
+    /// default 0.35. Foam is brighter where the relief faces the sun and darker where it faces away. 0 = flat.
     pub normal_strength: f32,
-    /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The shape around a
-    /// point is found from the depths of the foam within six spacings. Where it faces away from the sun only skylight
-    /// remains, and in hollows the skylight is dimmed too. Not in the thesis.
+    /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The shape around a point
+    /// is found from the depths of the foam within six spacings. With 1, only skylight remains where the shape faces
+    /// away from the sun, and in hollows all light is dimmed. Not in the thesis.
     pub shape: f32,
     /// Extinction of sunlight in foam, for the shadow that the foam casts, per scene unit, [0, ∞), default 0.25 /
-    /// spacing. It is less than [`extinction`](Self::extinction), because most of the light that foam scatters
-    /// continues forwards.
+    /// spacing. The default is less than that of [`extinction`](Self::extinction), because most of the light that foam
+    /// scatters continues forwards. It also scales the shadow of spray ([`SpraySettings::shade`]). No effect without
+    /// [`Config::light_map_size`](crate::Config).
     pub shadow: f32,
-    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids`]). A particle whose sum is at
-    /// most a has no foam, one whose sum is at least b keeps all of its foam, and in between it keeps a part. Each
-    /// limit is in [0, 64], b at least a. Default [0, 0]: off. Without the limits, foam on a few particles that fly
-    /// together looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a particle in a flat surface has a sum of
-    /// about 21; sums grow about with the cube of the reach. The limits do not apply to particles in flat films that
-    /// are one particle thick. No effect without [`Kernels::Ellipsoids`]. Not in the thesis.
+    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids::reach`]). A particle whose sum
+    /// is at most a has no foam, one whose sum is at least b keeps all of its foam, and in between it keeps a part.
+    /// Each limit is in [0, 64], b at least a. Default [0, 0]: off. Without the limits, foam on a few particles that
+    /// fly together looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a particle in a flat surface has a
+    /// sum of about 21; sums grow about with the cube of the reach. The limits do not apply to particles in flat films
+    /// that are one particle thick. No effect without [`Kernels::Ellipsoids`]. Not in the thesis.
     pub few_neighbours: [f32; 2],
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends a
     /// grey of 0.25 over its picture.)
@@ -737,9 +757,9 @@ impl SurfaceFoamSettings {
         }
     }
 
-    /// The thesis' foam for a particle spacing: opaque, with a noise per sprite, without relief. The extinctions are
-    /// converted from the thesis' units: 1.43 of its units of length are a spacing, and in its unit of thickness a
-    /// sprite holds about 33 particle volumes.
+    /// The thesis' foam for a particle spacing: opaque, with a noise per sprite, without relief and without a shadow
+    /// of its own. The extinctions are converted from the thesis' units: 1.43 of its units of length are a spacing,
+    /// and in its unit of thickness a sprite holds about 33 particle volumes.
     pub fn thesis(spacing: f32) -> Self {
         let unit = 1.43 * 33.0 / spacing;
         Self {
@@ -802,8 +822,8 @@ impl SurfaceFoamSettings {
     }
 }
 
-/// Appearance of spray: particles too few together to form a body of water. No effect without
-/// [`Config::spray`](crate::Config).
+/// Appearance of the spray that [`Config::spray`](crate::Config) draws: particles too few together to form a body of
+/// water.
 ///
 /// As its density drops, a particle fades from water to spray. Spray is drawn as droplets around the particle's
 /// centre, each stretched along its motion, and as mist: one wide faint sprite per particle for finer drops.
@@ -812,9 +832,10 @@ impl SurfaceFoamSettings {
 pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
-    /// Half-axis of a particle's droplet in drawn radii if the particle has only one, (0, 8], default 0.5 as in the
-    /// thesis. Of several droplets each has a random half-axis, 0.36 to 2 times this and on average 0.6 of it; on a
-    /// particle that is only spray they are 1.8 times as large.
+    /// Half-axis of a particle's droplet in drawn radii (0.656 spacings each) if [`droplets`](Self::droplets) is 1,
+    /// (0, 8], default 0.5 as in the thesis. If `droplets` is above 1, the half-axis of each droplet is random, from
+    /// 0.36 to 2 times `size/√(0.31·droplets)` and on average 0.6 times that, so that together they cover about as
+    /// much as the single droplet would. On a particle that is only spray they are 1.8 times as large.
     pub size: f32,
     /// Maximum half-axis of a droplet (without its motion blur), as a multiple of its distance from the camera plane,
     /// (0, 1]. Larger droplets are reduced to this size. The default 1 reduces none, because a droplet is not drawn if
@@ -839,40 +860,45 @@ pub struct SpraySettings {
     /// spray.) The fractions of this struct replace [`WaterSettings::density_threshold`] and
     /// [`density_full`](WaterSettings::density_full).
     pub no_spray_density: f32,
-    /// Maximum distance of droplets from the particle's centre, spacings, [0, 8], default 1.5; 0 as in the
-    /// thesis.
+    /// Maximum distance of droplets from the particle's centre, before [`stretch`](Self::stretch) moves them, in
+    /// spacings, [0, 8], default 1.5; 0 as in the thesis.
     pub scatter_radius: f32,
-    /// Each droplet is also moved along the particle's velocity, forwards or backwards, by the way of a random time
-    /// up to this one, so that torn water flies in strands. Seconds, [0, 1], default 0.
+    /// Each droplet is also moved along the particle's velocity, forwards or backwards, as far as the particle moves
+    /// in a random time of at most this length, so that torn water flies in strands. Seconds, [0, 1], default 0.
     pub stretch: f32,
-    /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. If a particle has several droplets, mist
-    /// replaces the first of them; if [`droplets`](Self::droplets) is 1 there is no mist.
+    /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. Mist replaces the first of the particle's
+    /// droplets; if [`droplets`](Self::droplets) is 1 there is no mist.
     pub mist: f32,
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
     /// How strongly the droplets and mist of all particles gather in clumps and strands, [0, 3], default 0 = even. No
-    /// effect if [`droplets`](Self::droplets) is 1. The natural logarithm of the density is a sum of octaves of
-    /// gradient noise: seven for mist, three for droplets. This is the amplitude of the coarsest octave; the amplitude of
-    /// each further octave is 1.4 times that of the one before, up to 4. An octave's root mean square is 0.27 of its
+    /// effect if [`droplets`](Self::droplets) is 1.
+    ///
+    /// The natural logarithm of the spray's density, relative to its mean, is a sum of octaves of gradient noise:
+    /// seven for mist, three for droplets. This setting is the amplitude of the coarsest octave; the amplitude of each
+    /// further octave is 1.4 times that of the one before, up to 4. An octave's root mean square is 0.27 of its
     /// amplitude. The coarsest cells are three spacings wide, those of each further octave about half as wide; octaves
-    /// with cells narrower than a pixel are left out. The logarithm is limited to 8. The density multiplies the optical
-    /// depth of mist. A density below 1 leaves out droplets, one above 1 multiplies the droplets' optical depth. Particles that are near each other and move alike share the noise. It moves with them and
-    /// restarts as the pattern of foam does ([`SurfaceFoamSettings::pattern_period`], [`SurfaceFoamSettings::time`]).
-    /// The coarsest cells are longer along the motion than across it: by twice the length over which
-    /// [`stretch`](Self::stretch) spreads the droplets, and up to 4 times as long as wide. Finer cells are less
-    /// elongated.
+    /// with cells narrower than a pixel are left out. The logarithm is limited to at most 8. The density multiplies
+    /// the optical depth of mist. A density below 1 leaves out droplets, one above 1 multiplies the droplets' optical
+    /// depth.
+    ///
+    /// Particles that are near each other and move alike share the noise. It moves with them and restarts as the
+    /// pattern of foam does ([`SurfaceFoamSettings::pattern_period`], [`SurfaceFoamSettings::time`]). The coarsest
+    /// cells are longer along the motion than across it: by twice the length over which [`stretch`](Self::stretch)
+    /// spreads the droplets, and up to 4 times as long as wide. Finer cells are less elongated.
     pub clumps: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
-    /// fill, [1, 8], default 1: a ball. Above 1 the ellipsoid is fitted to the particle's neighbours, as the
-    /// ellipsoid of its water is, so that torn water is strands and sheets of droplets, and groups of two or three
-    /// particles have no mist. No effect without [`Kernels::Ellipsoids`].
+    /// fill, [1, 8]. With 1, the default, mist is round, and the droplets of each particle fill a spindle of random
+    /// direction and size. Above 1 the ellipsoid is fitted to the particle's neighbours, of which one suffices, so
+    /// that torn water is strands and sheets of droplets, and groups of two or three particles have next to no mist.
+    /// No effect without [`Kernels::Ellipsoids`], or if [`droplets`](Self::droplets) is 1.
     pub strand_ratio: f32,
-    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids`]). A particle whose sum is at
-    /// most a is only spray, whatever its density, because many solvers write the rest density for a lone drop too.
-    /// If the sum is at least b, the density alone decides; in between the transition is gradual. Each limit is in
-    /// [0, 64], b at least a. Default [0, 0]: off. With an [`Ellipsoids::reach`] of 2.5 each of eight particles close
-    /// together has a sum of about 6, and a particle in an uneven sheet has 11; sums grow about with the cube of the
-    /// reach. The limits do not apply to particles in flat films that are one particle thick. Nor do they apply to
+    /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids::reach`]). A particle whose sum
+    /// is at most a is only spray, whatever its density, because many solvers write the rest density for a lone drop
+    /// too. If the sum is at least b, the density alone decides; in between the transition is gradual. Each limit is
+    /// in [0, 64], b at least a. Default [0, 0]: off. With an [`Ellipsoids::reach`] of 2.5 each of eight particles
+    /// close together has a sum of about 6, and a particle in an uneven sheet has 11; sums grow about with the cube of
+    /// the reach. The limits do not apply to particles in flat films that are one particle thick. Nor do they apply to
     /// particles whose density is 0, that is, not known yet: these are water. No effect without
     /// [`Kernels::Ellipsoids`] and `Particles::densities`.
     pub few_neighbours: [f32; 2],
@@ -881,13 +907,14 @@ pub struct SpraySettings {
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of sunlight by a particle's spray, relative to that by an equal amount of foam, [0, 64], default
-    /// 0.5: how dark the spray's shadows are. With several [`droplets`](Self::droplets) it is multiplied by the
-    /// square of the factor that reduces their number, which is `0.3² = 1/11` for a particle that is only spray, and
-    /// the half-axis of a particle's shadow is at least 0.6 [`scatter_radius`](Self::scatter_radius). No effect
-    /// without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
+    /// How dark the shadows of spray are: extinction of sunlight by a particle's spray, relative to that by an equal
+    /// amount of foam ([`SurfaceFoamSettings::shadow`]), [0, 64], default 0.5. If [`droplets`](Self::droplets) is
+    /// above 1, the extinction is also multiplied by the square of the factor that reduces the number of a particle's
+    /// droplets, which is `0.3² = 0.09` for a particle that is only spray. The half-axis of the shadow of such a
+    /// particle is at least 0.6 [`scatter_radius`](Self::scatter_radius). No effect without a map of the sunlight in
+    /// the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
-    /// Weight of multiple scattering in the shadows on spray, [0, 1], default 0. The transmittance T of sunlight
+    /// Weight s of multiple scattering in the shadows on spray, [0, 1], default 0. The transmittance T of sunlight
     /// becomes `(1 − s)·T + s·T^¼` (an octave of Wrenninge, Kulla, Lundqvist 2013), because light that droplets
     /// scatter forwards penetrates farther.
     pub scattering: f32,
@@ -1000,8 +1027,9 @@ impl SpraySettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceNoiseSettings {
-    /// Height that a noise value of 1 adds to the water's surface, in drawn radii, [0, 16], default 0.336, 0 = flat.
-    /// (The publication gives this number as the weight of the noise's derivatives, in a unit of its own.)
+    /// Height that a noise value of 1 adds to the water's surface, in drawn radii (0.656 spacings each), [0, 16],
+    /// default 0.336, 0 = flat. Only the normals follow this height; depth and outline stay. (The publication gives
+    /// this number as the weight of the noise's derivatives, in a unit of its own.)
     pub weight: f32,
     /// How fast a particle's noise fades with the particle's depth below the surface: if the front of the particle is
     /// `drawn radius / falloff` below it, the noise has 1/e of its strength. [0, 64], default 2; 0 means no fading.
@@ -1010,9 +1038,9 @@ pub struct SurfaceNoiseSettings {
     pub size: f32,
     /// Number of cells of a particle's noise per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// How much less height there is where the water lies on the scene, so that the scene behind is under water, [0, 1],
-    /// default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the noise, because a
-    /// solver's particles are coarsest there: a pool keeps the simulated waves alone. No effect with
+    /// Fraction by which the height is reduced where the water lies on the scene, so that the scene behind is under
+    /// water, [0, 1], default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the
+    /// noise, because a solver's particles are coarsest there: a pool keeps the simulated waves alone. No effect with
     /// `Bed::Source`.
     pub airborne: f32,
     /// Amount of the publication's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's

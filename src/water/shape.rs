@@ -2,11 +2,11 @@
 //! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4): flat in thin sheets
 //! of water, elongated in streams, round inside, so that thin water is one body instead of a heap of balls.
 //!
-//! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
-//! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
-//! sphere's volume, so thickness stays in scene units; the paper scales by a kernel constant. A sphere changes
-//! gradually to an ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a
-//! number of neighbours and then replaced.
+//! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of the
+//! neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its sphere's
+//! volume, so thickness stays in scene units; the paper scales by a kernel constant. A sphere changes gradually to an
+//! ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a number of neighbours
+//! and then replaced. A further part moves each ellipsoid towards the weighted centre of its neighbours.
 //!
 //! Pass `shape` runs once per frame before `cull`, which reads its result instead of the host's positions. The result
 //! does not depend on the view. In an optional last part, particles with few neighbours lose their surface foam and
@@ -202,7 +202,8 @@ pub struct Shape {
     /// Particles sorted by bucket, and their number.
     places: Buffer,
     counts: Buffer,
-    /// Offset of each particle from the centre of its neighbours; particles are in the order of the buffer `places`.
+    /// Vector from each particle to the weighted mean of itself and its neighbours, and how far the particle is an
+    /// ellipsoid; particles are in the order of the buffer `places`.
     shifts: Buffer,
     /// Position and shape of each particle, in the host's order.
     pub shaped: Buffer,

@@ -3,14 +3,14 @@
 //!
 //! A particle's density says which fraction of the particle is spray. This fraction is drawn as droplets around the
 //! particle. Each droplet is a sprite that faces the camera and is stretched along its motion; `composite` lays the
-//! droplets over everything else. The thesis adds one sprite per particle to the picture, which shows as a disc near
-//! the camera. A sum of optical depths up to 64 (4 with RG16F) does not depend on their order, because each droplet adds
-//! a whole number of fixed-point steps. A distant droplet is widened to 1.4 pixels, and its optical depth is lower in proportion.
-//! The steps are so fine that it still adds several; fractions of a step are rounded at random
-//! (glsl/include/whole_steps.glsl).
-//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (or RG16F with
-//! coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of scene and water, and
-//! the same weighted by sunlight.
+//! droplets over everything else except bubble foam in front of the water. The thesis adds one sprite per particle to
+//! the picture, which shows as a disc near the camera. A sum of optical depths up to 64 (4 with RG16F) does not depend
+//! on their order, because each droplet adds a whole number of fixed-point steps. A distant droplet is widened to 1.4
+//! pixels, and its optical depth is lower in proportion. The steps are so fine that it still adds several; fractions
+//! of a step are rounded at random (glsl/include/whole_steps.glsl).
+//! Reads: the counts of `cull`, the host's particles, scene depth, water depth, the sun's shadow maps. Writes: spray,
+//! RG32F (or RG16F with coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of
+//! scene and water, and the same weighted by sunlight.
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -1,9 +1,9 @@
 //! Pass `surface_foam`: depth and thickness of surface foam (thesis Sec. 3.2, 4.6.2 and 4.8).
 //!
-//! Particles with foam are drawn as sprites stretched along their motion. Slow sprites, and those that move towards
-//! the camera, change smoothly to discs (the thesis switches between the two, which pops). The intersection of a ray
-//! with a sprite's plane is exact. Thickness is in scene units, as that of the water: the fraction of a particle that
-//! is foam is subtracted from its water.
+//! Particles with foam are drawn as sprites stretched along their motion. Slow sprites, and those that move along the
+//! view, change smoothly to discs (the thesis switches between the two, which pops). The intersection of a ray with a
+//! sprite's plane is exact. Thickness is in scene units, as that of the water: the fraction of a particle that is foam
+//! is subtracted from its water.
 //!
 //! Nothing pops or flickers: the sprite of a particle in the depth image has its full size before its foam becomes
 //! visible; no sprite is narrower than a texel can represent; noise finer than texels fades out; the front layer (the

@@ -12,9 +12,9 @@ use crate::error::Error;
 /// displace it.
 ///
 /// They are 15 sines in all directions, with lengths that span three octaves; each octave contributes the same slope.
-/// A sine fades out in the picture where its waves are shorter than a few pixels. All waves fade out where the
-/// water's surface is inclined by 45 to 78 degrees, and where the water is between two particle spacings and one
-/// thick.
+/// All waves fade out where the water's surface is inclined by 45 to 78 degrees. In the picture, all waves also fade
+/// out where the water is between two particle spacings and one thick, and a single sine where its waves are shorter
+/// than a few pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wavelets {
@@ -23,7 +23,7 @@ pub struct Wavelets {
     pub slope: f32,
     /// Length of the longest waves, scene units, [1e-6, ∞), default 0.2. The shortest are a seventh of it.
     pub length: f32,
-    /// Time in seconds, which moves the waves at the speed of gravity waves. Default 0.
+    /// Time in seconds, finite, default 0. It moves the waves at the speed of gravity waves on deep water.
     pub time: f64,
     /// Gravity, scene units per second squared, [0, ∞), default 9.81.
     pub gravity: f32,
