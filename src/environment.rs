@@ -36,12 +36,13 @@ pub enum EnvironmentSource {
 
 /// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1), plus a
 /// fitted term for multiple scattering. The single scattering is an integral, computed to an accuracy of 4 %. With
-/// the sun 35° above the horizon the sky gives a fifth of the light on level ground. Below the horizon grey ground
-/// fades in; in directions whose component along up is −0.12 or less only ground is seen. The sun's disc is not included.
+/// the sun 35° above the horizon the sky gives 23 % of the light (luminance) on level ground, the sun the rest. Below
+/// the horizon grey ground fades in; in directions whose component along up is −0.12 or less only ground is seen. The
+/// sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sky {
-    /// World direction to the sun, unit length, default (1, 2, 1) normalised.
+    /// World direction to the sun, any length except 0, default (1, 2, 1) normalised.
     pub sun: [f32; 3],
     /// World up direction, any length except 0, default +y, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
@@ -63,7 +64,7 @@ impl Default for Sky {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {
-    /// Linear radiance. The format has to support linear filtering.
+    /// Linear radiance. The format has to support linear filtering. The whole image is used: `rect` has no effect.
     pub image: HostImage,
     /// The same picture without the sun. It is needed if `image` contains the sun that [`Light`](crate::Light)
     /// describes; `None`, the default, means that `image` does not. Diffuse light is gathered from the picture

@@ -1,7 +1,7 @@
 //! Pass `cast`: the blobs' shadow map, so that blobs shadow each other, the scene and the water (not in the paper).
 //!
 //! Reads: blobs. Writes: the shadow map, each texel of which holds the distance in scene units along the light to the
-//! first blob, measured from the near side of the light's region.
+//! first blob, measured from two radii of `Frame::light_volume` before its centre.
 
 use ash::vk;
 

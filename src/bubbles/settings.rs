@@ -36,13 +36,14 @@ pub struct BubbleConfig {
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) map_size: u32,
     /// Maximum number of steps in the search for the first bubble along a ray, 1 to 64. Default 10, which is the
-    /// paper's number for the default impostor; [`Impostor::steps`] gives it for each impostor.
+    /// paper's number for the default impostor; [`Impostor::steps`] gives it for each impostor. With
+    /// [`Impostor::Distance`] a value below 9 counts as 9.
     #[cfg(feature = "diagnostics")]
     pub steps: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) steps: u32,
     /// Number of layers: the nearest blobs of a pixel that are shaded and composited, 1 to 8, default 3. Blobs
-    /// farther behind only add opacity where these leave a hole.
+    /// farther behind only fill holes that the layers leave ([`BubbleSettings::fill_holes`]).
     pub layers: u32,
     /// How the blobs of a pixel are sorted.
     #[cfg(feature = "diagnostics")]
@@ -219,7 +220,7 @@ pub struct BubbleSettings {
     /// Weight w of the normals in the lighting of the core, 0 to 1, default 0.5 (Sec. 4.4): its normal is
     /// `(1 − w) · bubble's + w · blob's`, normalized.
     pub roundness: f32,
-    /// Factor on the environment reflection of films, [0, 8], default 1.
+    /// Factor on the light that films reflect from environment, sun and other foam, [0, 8], default 1.
     pub reflection: f32,
     /// Exponent of the sun's highlight on films, 1 to 10 000, default 800.
     pub shininess: f32,
@@ -238,15 +239,15 @@ pub struct BubbleSettings {
     pub crossfade: Crossfade,
 }
 
-/// Cross-fade of whitewater foam particles from sprites (flat discs) to blobs of bubbles near the camera, where
-/// Akinci et al. 2013 draw no foam. Spray and particles under water stay sprites.
+/// Cross-fade of whitewater foam particles from sprites (flat discs) to blobs of bubbles near the camera. (Akinci et
+/// al. 2013 show no foam so near.) Particles of the other kinds, spray and bubbles, stay sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossfade {
-    /// Distance from the camera up to which foam consists of blobs only, scene units, [0, ∞), default 2.
+    /// Distance from the camera up to which foam consists of blobs only, scene units, [0, far), default 2.
     pub near: f32,
-    /// Distance from the camera from which foam consists of sprites only, scene units, more than `near`, default 4.
-    /// From here to `near`, blobs grow as sprites shrink. If more particles are nearer than `far` than `max_blobs`
-    /// allows, both distances shrink by the same factor.
+    /// Distance from the camera from which foam consists of sprites only, scene units, (near, 1e9], default 4. From
+    /// here to `near`, blobs grow as sprites fade. If more foam particles on the screen are nearer than `far` than
+    /// `max_blobs` allows, both distances shrink by the same factor.
     pub far: f32,
     /// Radius of a blob relative to its particle, (0, 100], default 1.
     pub size: f32,

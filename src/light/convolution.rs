@@ -53,14 +53,15 @@ const BEFORE: Access = AFTER.and(COPY_READ);
 /// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convolution {
-    /// Number of terms of the Fourier series: 4, 8 or 16 (default). A point is fully in shadow if it lies behind its
-    /// occluder by at least 23 % of the map's depth range with 4 terms, 9 % with 8, or 4 % with 16.
+    /// Number of terms of the Fourier series: 4, 8 or 16 (default). With the default [`ShadowFilter`], a point is fully
+    /// in shadow if it lies behind its occluder by at least 23 % of the map's depth range (from its nearest to its
+    /// farthest texel) with 4 terms, 9 % with 8, or 4 % with 16.
     pub terms: u32,
     /// Maximum side length of the filtered images in texels, 16 to 4096 (default 1024). A larger shadow map is
     /// reduced by averaging blocks of its texels. The size of the shadow map may change from frame to frame.
     pub texels: u32,
     /// Bits per value: 8 (default) or 16, which changes the picture by a few thousandths. The images take
-    /// 2·`terms`·`bits`/8 + 16 bytes per texel.
+    /// 2·`terms`·`bits`/8 + 16 bytes for each of `texels`² texels.
     pub bits: u32,
 }
 

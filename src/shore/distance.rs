@@ -74,8 +74,9 @@ pub struct Area {
     pub edge: f32,
     /// Height of the water along `up`, scene units, finite.
     pub level: f32,
-    /// Maximum distance from the shore that is computed, scene units, (0, edge]: the width of the foam seawards or
-    /// inland, whichever is larger.
+    /// Maximum distance from the shore that is computed, scene units, (0, edge]. Shoreline foam needs the larger one of
+    /// its widths [`sea_reach`](super::ShorelineSettings::sea_reach) and
+    /// [`land_reach`](super::ShorelineSettings::land_reach).
     pub reach: f32,
 }
 
@@ -85,8 +86,8 @@ pub enum Heights<'a> {
     /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
     /// An image of the land's heights along [`Area::up`], in scene units, at the centres of its texels. It covers
-    /// the snapped area ([`Area::corner`]); x runs along the first horizontal axis ([`Area::axes`]), y along the second. Its size is
-    /// arbitrary, and it is only sampled.
+    /// the snapped area ([`Area::corner`]); x runs along the first horizontal axis ([`Area::axes`]), y along the
+    /// second. Its size is arbitrary, and it is only sampled.
     Image(HostImage),
 }
 
@@ -99,7 +100,7 @@ pub struct MapMesh {
     pub transform: [[f32; 4]; 4],
 }
 
-/// A step of the map, [`ShoreMap::record_step`], needed only where something has changed.
+/// The input of [`ShoreMap::record_step`], which updates the map. A step is needed only when land or water has changed.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct ShoreMapStep<'a> {
@@ -110,8 +111,8 @@ pub struct ShoreMapStep<'a> {
     /// All of the land, including the parts that have not changed.
     pub heights: Heights<'a>,
     /// Rectangle in which the land has changed since the last step: its minimum and maximum corner along the
-    /// horizontal axes ([`Area::axes`]), scene units. Around land that has moved, it encloses the old and the new position. `None`:
-    /// everything is computed again, as it also is if `area` has changed.
+    /// horizontal axes ([`Area::axes`]), scene units. Around land that has moved, it encloses the old and the new
+    /// position. `None`: everything is computed again, as it also is if `area` has changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
     pub before: Access,
@@ -139,7 +140,8 @@ impl Area {
         level_axes(Vec3::from(self.up)).map(|axis| axis.to_array())
     }
 
-    /// The minimum corner of a map with this many texels along each axis, along the horizontal axes.
+    /// The minimum corner of the snapped area, in scene units along the two horizontal axes ([`axes`](Self::axes)), for
+    /// a map with `size` texels along each axis.
     pub fn corner(&self, size: u32) -> [f32; 2] {
         let texel = f64::from(self.edge) / f64::from(size);
         self.center.map(|c| {
@@ -227,7 +229,7 @@ struct Grid {
     distances: Image,
 }
 
-/// Distances to the shore over an area of the world. Views share it.
+/// A map of the distances to the shore over an area of the world. Several views can share one map.
 pub struct ShoreMap {
     gpu: Arc<Gpu>,
     config: ShoreMapConfig,
@@ -534,7 +536,8 @@ impl ShoreMap {
         }
     }
 
-    /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step.
+    /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step, and after
+    /// a step that failed with another error than [`Error::BadInput`].
     pub fn shore_distances(&self) -> Option<ShoreDistances> {
         let area = self.area?;
         let size = self.config.size;
@@ -546,9 +549,9 @@ impl ShoreMap {
         })
     }
 
-    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where it exceeds the
-    /// reach, only the sign is right, and the absolute value is larger than the reach. The image has transfer-source
-    /// usage; after a step, fragment and compute shaders may sample it.
+    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where it exceeds
+    /// [`Area::reach`], only the sign is right, and the absolute value is larger than the reach. The image has
+    /// transfer-source usage; after a step, fragment and compute shaders may sample it.
     pub fn distances(&self) -> vk::Image {
         self.grid.distances.handle
     }

@@ -77,8 +77,8 @@ pub struct ShoreSettings {
 }
 
 impl ShoreSettings {
-    /// Returns these settings, whose lengths are in metres, with lengths and velocities in scene units, of which a
-    /// metre has `units_per_metre`.
+    /// Converts the lengths and velocities of these settings from metres to scene units. `units_per_metre` is the
+    /// number of scene units per metre.
     #[must_use]
     pub fn in_units(mut self, units_per_metre: f32) -> Self {
         let longer = |length: &mut f32| *length *= units_per_metre;
@@ -146,9 +146,10 @@ impl Noise {
 /// ```
 ///
 /// In this condition for foam the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at
-/// the foam's inland edge (the blog, Sec. IV to VIII). The phase advances with `speed`. a and b are `wave_slope` and
-/// `wave_offset`, a' and b' are `texture_slope` and `texture_offset`. `web` is the foam texture. n₁, n₂ and n₃ are
-/// `frequency_noise`, `threshold_noise` and `rise_noise`.
+/// the foam's inland edge (the blog, Sec. IV to VIII). The phase changes over time by `speed`, `swing` and
+/// `speed_noise`. a and b are `wave_slope` and `wave_offset`, a' and b' are `texture_slope` and `texture_offset`.
+/// `web` is the foam texture: the sum of its `layers`, each times its weight. n₁, n₂ and n₃ are `frequency_noise`,
+/// `threshold_noise` and `rise_noise`. `fade` reduces the foam further near v = 0 and v = 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
@@ -156,7 +157,9 @@ pub struct ShorelineSettings {
     /// the shore to v; it has no effect on a strip, whose vertices give v themselves.
     pub sea_reach: f32,
     /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3. Land that rises above the water's
-    /// surface hides it, except as far as `bias` of [`Shore`](crate::Shore) lets the surface show through.
+    /// surface hides this foam, except where it lies at most `bias` of [`Shore`](crate::Shore) in front of the surface.
+    /// The width converts a distance from the shore to v; it has no effect on a strip, whose vertices give v
+    /// themselves.
     pub land_reach: f32,
     /// Wave frequency in radians per unit of v, [0, 1000], default 13: two waves between the foam's seaward edge and
     /// the shore line.
@@ -165,9 +168,9 @@ pub struct ShorelineSettings {
     /// towards the shore; with a positive one, as in the blog, out to sea.
     pub speed: f32,
     /// Share of the waves' motion that is an oscillation to and fro instead of an advance with `speed`, 0 (none) to 1
-    /// (all), default 0.35.
+    /// (all), default 0.35. `speed` is multiplied by 1 − `swing`, `swing_amplitude` by `swing`.
     pub swing: f32,
-    /// Amplitude of the oscillation, radians, [0, 1000], default 2.2.
+    /// Amplitude of the oscillation before its multiplication by `swing`, radians, [0, 1000], default 2.2.
     pub swing_amplitude: f32,
     /// Period of the oscillation, seconds, [0.1, 1e6], default 7.
     pub swing_period: f32,
@@ -199,15 +202,16 @@ pub struct ShorelineSettings {
     /// Noise that displaces the positions at which the foam texture is looked up, scene units. Default: amplitude
     /// 0.7, scale 1/18 per scene unit.
     pub texture_warp: Noise,
-    /// Velocity at which the noise of `texture_warp` moves, scene units per second, [-1000, 1000], default 0.35 and
-    /// 0.2.
+    /// Velocity of the positions at which the noise of `texture_warp` is looked up, along the two horizontal axes
+    /// ([`Area::axes`](super::Area::axes)), scene units per second, [-1000, 1000], default 0.35 and 0.2. The noise
+    /// thus moves the opposite way over the water.
     pub texture_warp_velocity: [f32; 2],
     /// Threshold: there is foam where the mix of waves and foam texture is at least this, [-100, 100], default 0.39.
     pub threshold: f32,
     /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 per scene unit.
     pub threshold_noise: Noise,
-    /// Noise n₃ added to both `wave_offset` and `texture_offset`, so that the foam reaches less or more far along the
-    /// shore. Default: amplitude 0.22, scale 1/90 per scene unit.
+    /// Noise n₃ added to both `wave_offset` and `texture_offset`, so that from place to place along the shore the foam
+    /// reaches less or more far out. Default: amplitude 0.22, scale 1/90 per scene unit.
     pub rise_noise: Noise,
     /// Noise that displaces the positions at which the foam texture and all other noises are looked up, scene units.
     /// The shore coordinate v is not displaced. Default: none.
@@ -230,7 +234,9 @@ pub struct TextureLayer {
     pub scale: f32,
     /// Rotation in degrees, [-1e6, 1e6].
     pub angle: f32,
-    /// Velocity in scene units per second, [-1000, 1000].
+    /// Velocity of the positions at which the layer is looked up, along the two horizontal axes
+    /// ([`Area::axes`](super::Area::axes)), scene units per second, [-1000, 1000]. The layer thus moves the opposite
+    /// way over the water.
     pub speed: [f32; 2],
 }
 
@@ -299,8 +305,9 @@ pub struct ContactSettings {
     /// Repetitions per scene unit, [0, 100], default 1/2.2, of the foam texture where it serves as mask of contact
     /// foam, because the application gives no mask.
     pub mask_scale: f32,
-    /// Velocity of the foam texture where it serves as mask of contact foam, scene units per second, [-1000, 1000],
-    /// default 0.05 and 0.03.
+    /// Velocity of the positions at which the foam texture is looked up where it serves as mask of contact foam, along
+    /// the two horizontal axes ([`Area::axes`](super::Area::axes)), scene units per second, [-1000, 1000], default
+    /// 0.05 and 0.03. The mask thus moves the opposite way over the water.
     pub mask_speed: [f32; 2],
     /// Albedo of contact foam, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). If `lit` is 0,
     /// it is the radiance that the foam emits, [0, ∞).
@@ -340,8 +347,8 @@ pub enum Measure {
     /// The eye depth of the scene less that of the water's surface at the pixel (along the view axis), as in the
     /// tutorial's text.
     View,
-    /// The height of the water's surface less that of the scene which the pixel shows behind it. Where this is not
-    /// positive, there is no contact foam.
+    /// The height of the water's surface less that of the scene which the pixel shows behind it. Where the pixel's view
+    /// ray does not descend, there is no contact foam.
     Vertical,
 }
 

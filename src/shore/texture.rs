@@ -12,14 +12,14 @@ use crate::random::{Random, pcg};
 const NOWHERE: i64 = i64::MAX;
 
 /// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
-/// repeating in both directions. Infinite everywhere if the pattern is empty.
+/// repeating in both directions. Infinite everywhere if no texel belongs to the pattern.
 ///
 /// This Euclidean distance transform is exact except for the rounding of the square root, in time linear in the
 /// number of texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass
 /// runs along the columns of the pattern. The second finds, in each row, the lower envelope of one parabola per
 /// column; the row is extended periodically by half its width on both sides, because the picture repeats.
 ///
-/// `pattern` is `width` × `height` texels, row by row.
+/// `pattern` is `width` × `height` texels, row by row; `true` marks the texels of the pattern.
 ///
 /// # Panics
 /// If `pattern` has another length.
@@ -28,7 +28,7 @@ pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<
 }
 
 /// The inverted distance, as shoreline foam uses it: 1 on the pattern, falling linearly to 0 at `reach` texels.
-/// 0 everywhere if the pattern is empty; 1 on the pattern and 0 elsewhere if `reach` is not above 0.
+/// 0 everywhere if no texel belongs to the pattern; 1 on the pattern and 0 elsewhere if `reach` is not above 0.
 ///
 /// # Panics
 /// Those of [`distance_transform`].

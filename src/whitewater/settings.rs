@@ -12,7 +12,8 @@ pub struct WhitewaterConfig {
     /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
     /// Maximum stride in bytes, from particle to particle, of the host's buffers with whitewater attributes, a
-    /// multiple of 4, at least 12, default 16 as the buffers of a [`Generator`](crate::Generator) have.
+    /// multiple of 4, at least 12, default 16: the largest stride of the buffers of a
+    /// [`Generator`](crate::Generator).
     pub max_stride: u32,
     /// Whether frames may give the particles in groups that are culled as a whole
     /// ([`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets)). Default false.
@@ -85,7 +86,8 @@ pub enum WhitewaterSplat {
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Occlusion {
     /// As in the paper: the number of occlusion samples of a sphere is proportional to its volume on the screen, in
-    /// cubic pixels ([`WhitewaterSettings::sample_density`]). All pixels use the same sample positions.
+    /// cubic pixels ([`WhitewaterSettings::sample_density`]), but at least [`WhitewaterSettings::min_samples`] and at
+    /// most [`WhitewaterSettings::max_samples`]. All pixels use the same sample positions in the unit sphere.
     Reference,
     /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes
     /// `min(max_samples, 320) / 16` samples per sphere, rounded down to an even number from 2 to 20, whatever the
@@ -102,8 +104,9 @@ pub enum Irradiance {
     /// The environment's light is one look-up per pixel in an irradiance map, which is filtered once per environment;
     /// the paper calls this the faster way. Default.
     Prefiltered,
-    /// One look-up in the environment for each sample of the first occlusion sphere, in the sample's direction
-    /// (Sec. 2.4.2). This needs no occlusion passes: [`WhitewaterSettings::passes`] may be 0.
+    /// One look-up in the environment for each sample of the first occlusion sphere, in the sample's direction, or,
+    /// if that points behind the foam's surface, in its mirror image in front (Sec. 2.4.2). This needs no occlusion
+    /// passes: [`WhitewaterSettings::passes`] may be 0.
     Sampled,
 }
 
@@ -137,7 +140,8 @@ pub enum OcclusionReach {
     Metres(f32),
 }
 
-/// How light and shadow combine.
+/// How the light that whitewater reflects and the shadow on it combine. In both formulas `shadow`, the shadow from
+/// ambient occlusion, is already multiplied by `1 − shadow_color` ([`WhitewaterSettings::shadow_color`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum ShadowMixing {
@@ -175,9 +179,12 @@ pub struct WhitewaterSettings {
     /// Occlusion samples per cubic pixel of the sphere's volume, [0, 16], default 0.5 (AO_SDens). Used by
     /// `Occlusion::Reference` (feature `diagnostics`) only; otherwise the number of samples is the same at any size.
     pub sample_density: f32,
-    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used as `sample_density` is.
+    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used by `Occlusion::Reference` (feature
+    /// `diagnostics`) only.
     pub min_samples: u32,
-    /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
+    /// Maximum number of occlusion samples, `min_samples` to 512, default 512. By default the 16 pixels of a 4×4
+    /// block share the samples of a sphere, and the maximum is for all 16 together; they take at least 32 and at most
+    /// 320. With `Occlusion::Reference` (feature `diagnostics`) each pixel takes up to this many samples per sphere.
     pub max_samples: u32,
     /// Depth difference between an occluder and a point behind it at which the occlusion has fallen to 0
     /// (AO_MaxOcclDist).
@@ -208,10 +215,10 @@ pub struct WhitewaterSettings {
     /// from its default, shaders evaluate a few powers more per pixel.
     pub foam_shape: [f32; 2],
     /// Exponents n and m of the thickness `(1 − x^n)^m` of a spray particle, with x the distance from its centre in
-    /// radii, default 1.5 and 1.
+    /// radii. [0.1, 16], default 1.5 and 1.
     pub spray_shape: [f32; 2],
     /// Exponents n and m of the thickness `1 − (1 − x^n)^m` of a bubble, with x the distance from its centre in
-    /// radii: 0 at the centre, greatest at the rim. Default 2 and 1.
+    /// radii: 0 at the centre, greatest at the rim. [0.1, 16], default 2 and 1.
     pub bubble_shape: [f32; 2],
     /// Exponents n and m of the factor `(1 − a^n)^m` on a particle's thickness at the relative age a, 0 (new) to 1
     /// (gone) (Sec. 2.2). [0.1, 16], default 2 and 0.4.
@@ -222,7 +229,8 @@ pub struct WhitewaterSettings {
     /// Factor on the radius of bubbles, relative to foam and spray, (0, 1], default 0.5 (Sec. 2.1).
     pub bubble_size: f32,
     /// Radius of the blur of light and shadow, in radii of the first occlusion sphere, [0, 16], default 1.5
-    /// (Sec. 2.5). A blur radius of up to 32 pixels uses every texel; a larger one uses evenly spaced texels, at
+    /// (Sec. 2.5). The blur reaches at least 4 pixels, even with 0, except with `Occlusion::Reference` (feature
+    /// `diagnostics`). A blur radius of up to 32 pixels uses every texel; a larger one uses evenly spaced texels, at
     /// least 11 on each side.
     pub blur: f32,
     /// How light and shadow combine.

@@ -128,7 +128,7 @@ struct HeapSlot {
     solids: Buffer,
 }
 
-/// A simulation of bubble-foam blobs. Views share it.
+/// A simulation of bubble-foam blobs. Several views can share one simulation.
 pub struct BlobSimulation {
     gpu: Arc<Gpu>,
     config: BlobSimulationConfig,
@@ -256,9 +256,10 @@ impl BlobSimulation {
         })
     }
 
-    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, scene units per second). `largest`
-    /// is their largest radius, which sizes the grid cells. It uses other resources of the slot than a step, so it may
-    /// have the slot and the command buffer of the first step.
+    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, scene units per second). Their number
+    /// has to be a [`Count::Cpu`]. `largest` is their largest radius, which sizes the cells of the grid that finds
+    /// neighbours. This call uses other resources of the slot than a step, so it may have the slot and the command
+    /// buffer of the first step.
     ///
     /// # Errors
     /// [`Error::BadInput`], which names the field, before the first command is recorded.

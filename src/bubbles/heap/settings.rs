@@ -17,15 +17,15 @@ const MOST_SUBSTEPS: u32 = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BlobSimulationSettings {
-    /// Gravity, scene units per second squared, default (0, −9.81, 0).
+    /// Gravity, scene units per second squared, each component [-1e4, 1e4], default (0, −9.81, 0).
     pub gravity: [f32; 3],
     /// Linear air drag, 1/s, [0, 100], default 0.8.
     pub drag: f32,
     /// Distance between the centres of two blobs at which they neither attract nor repel each other, relative to the
-    /// sum of their radii, (0, 1), default 0.75: blobs at rest overlap.
+    /// sum of their radii, (0, 1], default 0.75: blobs at rest overlap.
     pub rest: f32,
     /// Distance between the centres of two blobs below which they attract each other, relative to the sum of their
-    /// radii, from `rest` to 1.2, default 0.95. Below `rest` they repel each other.
+    /// radii, (rest, 1.2], default 0.95. Below `rest` they repel each other.
     pub reach: f32,
     /// Repulsion of two blobs: acceleration divided by the length by which their distance falls short of that of
     /// `rest`, 1/s², (0, 100 000], default 4000.
@@ -63,8 +63,8 @@ pub struct BlobSimulationSettings {
     /// Duration of a split, seconds, [0.01, 10], default 0.5. In this time the blob shrinks to one half, and the
     /// other half grows beside it.
     pub split_duration: f32,
-    /// Number of substeps into which a step is divided, 1 to 64, default 4. Forces are stable in substeps no longer
-    /// than 1/200 s.
+    /// Number of substeps into which a step is divided, 1 to 64, default 4. The default forces are stable in substeps
+    /// no longer than 1/200 s.
     pub substeps: u32,
 }
 
@@ -94,8 +94,8 @@ impl Default for BlobSimulationSettings {
 }
 
 impl BlobSimulationSettings {
-    /// Returns these settings, whose lengths are in metres, with lengths in scene units, of which a metre has
-    /// `units_per_metre`: gravity, cohesion and the height of the water are multiplied by it.
+    /// Converts these settings from metres to scene units: multiplies gravity, cohesion and the height of the water by
+    /// `units_per_metre`, the number of scene units per metre.
     #[must_use]
     pub fn in_units(self, units_per_metre: f32) -> Self {
         Self {

@@ -1,8 +1,8 @@
 //! Values that VTK files store per cell instead of per point.
 //!
 //! Particles are often written as cells of one point each (vertices), with their values on the cells: by meshio, by
-//! ParaView after a filter, by several SPH codes. If each point has exactly one such cell, cell `i` is a particle, and its
-//! values are those of the point that it names, which need not be point `i`. Values of any other cells belong to no
+//! ParaView after a filter, by several SPH codes. If each point has exactly one such cell, cell `i` is a particle, and
+//! its values are those of the point that it names, which need not be point `i`. Values of any other cells belong to no
 //! particle; they are not read, and a warning says so.
 
 use std::ops::Range;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum Place {
     /// Byte offset, from 0. It counts from the start of the file, in gzip files from the start of the decompressed
-    /// content, in NPZ files from the start of the unpacked array
+    /// content, in NPZ files from the start of the unpacked array.
     Byte(u64),
     /// Line number, from 1
     Line(u64),

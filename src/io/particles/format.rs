@@ -13,7 +13,7 @@ pub enum Extension {
     Bgeo,
     /// `.geo`
     Geo,
-    /// `.sc`: Houdini's Blosc container
+    /// `.sc`, `.bgeosc`: Houdini's Blosc container
     Sc,
     /// `.vtk`
     Vtk,
@@ -33,7 +33,7 @@ pub enum Extension {
     Xyz,
     /// `.dat`, `.extxyz`, `.out`, `.tab`, `.tec`, `.tp`: text
     Text,
-    /// `.json`
+    /// `.json`, `.jsonl`, `.ndjson`
     Json,
     /// `.bobj`: meshes of Blender and Mantaflow, which have no magic bytes
     Bobj,
@@ -211,7 +211,7 @@ pub enum WriteFormat {
 }
 
 impl WriteFormat {
-    /// The format for a name: `.bgeo`, `.bgeo.gz`, `.vtu`, `.ply` or `.npz`.
+    /// The format for a name: `.bgeo`, `.bgeo.gz`, `.vtu`, `.ply` or `.npz`; `None` for any other.
     pub fn from_path(path: &Path) -> Option<Self> {
         let gzip = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
         match (Extension::from_path(path), gzip) {
@@ -384,8 +384,8 @@ fn is_readable(bytes: &[u8]) -> bool {
     !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
 }
 
-/// Converts text in UTF-16, or with carriage returns alone at the ends of lines, to UTF-8 with line feeds; `None` for all
-/// others.
+/// Converts text in UTF-16, or with carriage returns alone at the ends of lines, to UTF-8 with line feeds; `None` for
+/// all others.
 pub(super) fn as_lines(bytes: &[u8]) -> Option<Vec<u8>> {
     from_utf16(bytes).or_else(|| from_old_mac(bytes))
 }

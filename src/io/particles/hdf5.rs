@@ -75,8 +75,8 @@ fn is_here(has: &mut dyn FnMut(usize, &[u8]) -> bool) -> bool {
     starts().any(|at| has(at, MAGIC)) && !has(257, b"ustar")
 }
 
-/// Compares the file's length with the length in its superblock, as the HDF5 library does. Without this check a file that
-/// was cut off could lose attributes, such as units, without an error.
+/// Compares the file's length with the length in its superblock, as the HDF5 library does. Without this check a file
+/// that was cut off could lose attributes, such as units, without an error.
 ///
 /// # Errors
 /// [`ReadError::Truncated`] if the file is shorter.

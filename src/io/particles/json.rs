@@ -3,9 +3,9 @@
 //!
 //! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`. In a
 //! flat array the components of vectors follow one another. Positions may be keyed by id: `{"7": [x, y, z], ...}`. An
-//! object with a single array of particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per
-//! line is read as an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the
-//! last value, are ignored. Houdini's JSON geometry begins with `"fileversion"` and is refused.
+//! object with a single array of particles, `{"particles": [...]}`, is read as that array. A file with one JSON value
+//! per line is read as an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments, and commas
+//! after the last value, are ignored. Houdini's JSON geometry begins with `"fileversion"` and is refused.
 //!
 //! A file with several frames is a list of such arrays or objects, an object that holds them by name
 //! (`{"frame_1": ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see

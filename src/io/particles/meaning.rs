@@ -18,7 +18,7 @@ pub enum Meaning {
     Kind,
     /// Time or step number, which gives the frame's time or tells the frames of a file apart.
     Time,
-    /// Mark of a particle that is a copy of one in another piece of the file, and left out.
+    /// Marks the particles that are copies of particles in another piece of the file; these copies are left out.
     Ghost,
 }
 

@@ -23,10 +23,12 @@
 //! memory. Exceptions, which it still loads as a whole first, are JSON, HDF5, XDMF and the rare variants of other
 //! formats that its documentation lists.
 //!
-//! A file in any of these formats may be compressed with gzip. The content decides the format; the extension is only
-//! a hint. Case, blanks, `_ - . :` and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A valid
-//! file that is not one frame of particles is refused; the error says what it is and what to do. Ambiguous
-//! interpretations are reported in [`Particles::warnings`].
+//! A file may be compressed with gzip, and its content decides the format; the extension is only a hint. XDMF and files
+//! that list others (PVTU, PVTP, VTM, PVD, `.series`) are exceptions: they need their extension and must not be
+//! compressed. Case, blanks, `_ - . :` and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A
+//! valid file of something else than particles, or of several frames, is refused: the error says what it is and what to
+//! do. Ambiguous interpretations, such as that of a mesh's vertices as particles, are reported in
+//! [`Particles::warnings`].
 //!
 //! Lengths and times keep the file's units; nothing is scaled or reordered. Ghosts (copies of particles that
 //! belong to another piece of the file) are left out. An origin is subtracted only from double-precision
@@ -97,7 +99,8 @@ pub use write::{write, write_to};
 
 /// One frame of particles as read from a file.
 ///
-/// All present vectors have the same length and the file's order.
+/// The lists of values (positions, velocities and so on) that the file has are equally long, one value per particle, in
+/// the order of the particles in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
     /// Centres, in the file's unit of length. They may contain NaN or infinities, see [`count_non_finite`].
@@ -106,13 +109,15 @@ pub struct Particles {
     pub velocities: Option<Vec<[f32; 3]>>,
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
-    /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. If any id
-    /// is negative or fractional, or if more than 1 % of the ids repeat, all are dropped with a warning.
+    /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. All ids are
+    /// dropped, with a warning, if any is negative, no whole number, or too large to be exact, or if more than 1 % of
+    /// them repeat (more in a file in which positions repeat too).
     pub ids: Option<Vec<u32>>,
     /// Remaining lifetime of whitewater particles. A particle whose lifetime is zero or less dies with the next
     /// frame.
     pub lifetimes: Option<Vec<f32>>,
-    /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other values are kept.
+    /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other whole numbers up to 2^32 - 1 are kept; if any
+    /// value is not such a number, all kinds are dropped with a warning.
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, including positions and attributes that are not read.
     pub attributes: Vec<Attribute>,
@@ -159,9 +164,10 @@ impl Particles {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. Attributes that only one of the files has are
-    /// dropped, with a warning. All ids are dropped, with a warning, if the files give one id to different particles.
-    /// [`extras`](Self::extras) are NaN for particles of a file that lacks them.
+    /// Appends the particles of another file of the same frame. Velocities, densities, lifetimes, kinds and ids that
+    /// only one of the files has are dropped, with a warning, unless the other file has no particles. All ids are
+    /// dropped, with a warning, if the files give one id to different particles. [`extras`](Self::extras) are NaN for
+    /// particles of a file that lacks them.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }

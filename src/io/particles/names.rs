@@ -1,9 +1,9 @@
 //! Meanings of attribute names, in the spellings of different programs.
 //!
 //! Case, blanks, `_ - . :` and units in brackets are ignored: `Pos.x [m]`, `pos_x` and `PosX` are one name.
-//! Components are `x y z`, numbers from 0 or 1, `i j k` or, of long names, `u v w`, bare or in brackets: `Points:0`, `v_1`,
-//! `velocity[2]`, `Velocity[i]`, `Velocity u`. A prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`;
-//! before vectors also `Track: Parcel` and `Translational`.
+//! Components are `x y z`, numbers from 0 or 1, `i j k` or, of long names, `u v w`, bare or in brackets: `Points:0`,
+//! `v_1`, `velocity[2]`, `Velocity[i]`, `Velocity u`. A prefix `particle` or `part` is ignored: `Part id`,
+//! `particle_velocity_x`; before vectors also `Track: Parcel` and `Translational`.
 
 use std::collections::HashSet;
 use std::sync::LazyLock;

@@ -28,13 +28,15 @@ const START: u64 = 1 << 16;
 /// than 64 characters. In addition, a block compressed with LZ4 or LZMA is decompressed as a whole, LZMA with a
 /// dictionary of at most 64 MiB.
 ///
-/// This limit holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ
-/// in gzip or with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA.
+/// This limit holds for all formats except JSON, HDF5, XDMF, text in UTF-16 or with carriage returns alone as line
+/// ends, NPY and NPZ arrays that store one component after the other (shape (n, 3) in Fortran order, (3, n) in C
+/// order), NPZ in gzip or with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`)
+/// or CDATA.
 /// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)), except such VTK XML, which is read
 /// in parts, but whose header is as long as the file. In VTK files, an attribute of cells is held as a whole if the
 /// cells are in another order than the points, and the list of the cells' points if the points are also those of a
-/// mesh. Because each attribute of a VTK file has a place of its own in the file, gzip content is decompressed once per
-/// attribute.
+/// mesh. Because each attribute of a VTK file has a place of its own in the file, each pass decompresses gzip content
+/// once per attribute.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,
@@ -57,8 +59,8 @@ impl Parts<'static> {
     /// Default number of particles per part.
     pub const USUAL: usize = 1 << 17;
 
-    /// Opens a file to return its particles in parts of `most` particles each; the last part may have fewer. A `most`
-    /// of 0 counts as 1.
+    /// Opens a file to return its particles in parts of at most `most` particles each. The last part may have fewer,
+    /// and so may a part from which ghosts are left out. A `most` of 0 counts as 1.
     ///
     /// # Errors
     /// Those of [`read`](super::read).
@@ -104,11 +106,11 @@ impl Parts<'static> {
     }
 }
 
-/// The [`origin`](Particles::origin) of a file. If the file can be read in parts, only its first particles are
-/// read. The origin of the first frame suits a whole sequence, see [`Particles::move_to`].
+/// The [`origin`](Particles::origin) of a file. If the file can be read in parts, only its header and its first
+/// particles are read. The origin of the first frame suits a whole sequence, see [`Particles::move_to`].
 ///
 /// # Errors
-/// Those of [`read`](super::read) that come before the particles.
+/// Those of [`read`](super::read); of a file that can be read in parts, only those that come before the particles.
 pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
     if let Some(pieces) = super::index::Pieces::of(path)? {
         return Ok(pieces.plan(&Asked::default())?.origin());
@@ -207,7 +209,7 @@ impl<'a> Parts<'a> {
         Ok(Self { about, total, most, rest, path: None })
     }
 
-    /// Total number of particles.
+    /// Total number of particles, without ghosts.
     pub fn total(&self) -> usize {
         self.total
     }

@@ -16,12 +16,13 @@ use order::{Named, listed_frames, number};
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Number in the file's name. If the names have no number, or a time instead, or if a list of files gives the
-    /// order, the frame's index in the sequence, from 0.
+    /// Number in the file's name, or in its folder's name if all files are named alike. If there is no such number, or
+    /// a time instead, or if a list of files gives the order, the frame's index in the sequence, from 0.
     pub number: u64,
-    /// Time of the frame. It is in seconds if the numbers in the names of the files or their folders have a unit (`t_900us`,
-    /// `0.5s/cloud`; see [`time_unit`]). Otherwise it is in the author's unit: from a list of files (`.pvd`, `.series`), or
-    /// from a number with a decimal point or an exponent in a name (`t0.32`, `0.32/cloud`, `4.0e-04`).
+    /// Time of the frame; `None` if neither a list nor the names tell it. It is in seconds if the numbers in the names
+    /// of the files or their folders have a unit (`t_900us`, `0.5s/cloud`; see [`time_unit`]). Otherwise it is in the
+    /// unit of the files' author: from a list of files (`.pvd`, `.series`), or from a number with a decimal point or an
+    /// exponent in a name (`t0.32`, `0.32/cloud`, `4.0e-04`).
     pub time: Option<f64>,
     /// Whether the time is in seconds, as a unit in the name says.
     pub in_seconds: bool,
@@ -29,8 +30,8 @@ pub struct Frame {
     pub path: PathBuf,
     /// Other files with particles of the same frame.
     pub also: Vec<PathBuf>,
-    /// Which frame of the file this is, if the file holds several. [`expand`] leaves it `None`, because it does not read
-    /// files of particles.
+    /// Which frame of the file this is, if the file holds several. [`expand`] leaves it `None`, because it does not
+    /// read files of particles.
     pub step: Option<Step>,
 }
 
@@ -167,7 +168,8 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
     Ok(first..=last)
 }
 
-/// Expands inputs to the frames of one sequence, in the order of their numbers.
+/// Expands inputs to the frames of one sequence, in the order of their numbers. With `frames`, only those with a number
+/// in this range are returned.
 ///
 /// An input is a file, a list of files with times (ParaView's `.pvd` and `.series`), a pattern with `*`, `?` or
 /// `[...]`, or one with `%d` or `%04d` in the file name. A name that exists is taken literally. All inputs
@@ -257,7 +259,7 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
     Ok(found)
 }
 
-/// The frames whose numbers are in a range.
+/// The frames of `found` whose numbers are in the range `frames`; all of them with `None`.
 ///
 /// # Errors
 /// [`SequenceError::OutsideRange`] if there is none.

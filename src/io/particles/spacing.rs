@@ -8,7 +8,7 @@ const QUERIES: usize = 16_384;
 /// Estimates the rest spacing (twice the solver's particle radius) from positions, in their unit. `None` if no
 /// two finite, distinct positions lie near each other.
 ///
-/// The estimate is the median, over a subset of every n-th particle, of the distance to the third nearest
+/// The estimate is the median, over every n-th particle (16 384 at most), of the distance to the third nearest
 /// neighbour. It is exact on an initial cubic grid, and within 5 % for most frames of moving fluid (10 % if
 /// most of it is spray). The distance to the nearest neighbour would be 12 to 28 % too low. The estimate is
 /// meaningful for fluids only, not for spray and foam. It is the same in every run, and a few outliers,

@@ -39,11 +39,11 @@ pub(super) struct Start {
     pub(super) time: Option<f64>,
 }
 
-/// The frames of a file, in the file's order or, in a table with a column of times, in the order of time. The
-/// list is empty for a file with one frame. Recognized are XYZ text (each frame begins with a count of particles)
-/// and LAMMPS dumps with several frames, zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames,
-/// tables of any format with a column of times or steps, and HDF5 and XDMF with steps. If necessary, the whole
-/// file is read for this.
+/// The frames of a file, in the file's order. Frames that a column of times, times of HDF5 groups, or numbers in the
+/// names of HDF5 groups or JSON members tell apart are in the order of these instead. The list is empty for a file with
+/// one frame. Recognized are XYZ text (each frame begins with a count of particles) and LAMMPS dumps with several
+/// frames, zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of any format with a column
+/// of times or steps, and HDF5 and XDMF with steps. If necessary, the whole file is read for this.
 ///
 /// # Errors
 /// Those of [`read`](super::read), for the part that is read.

@@ -164,8 +164,8 @@ struct Steps {
     last: Option<f64>,
     /// Number of changes from one particle to the next.
     changes: usize,
-    /// Number of particles since the last change, and up to the first; and whether the values rise, after equal
-    /// numbers of particles each.
+    /// `run`: number of particles since the last change of time. `first_run`: number of particles before the first
+    /// change. `even`: whether the times rise, with equally many particles of each.
     run: usize,
     first_run: usize,
     even: bool,
@@ -275,7 +275,8 @@ impl Survey {
         self.only.or(self.one_time())
     }
 
-    /// Removes the meaning of a time from an attribute that gave none, because its values differ or mean something else.
+    /// Removes the meaning of a time from an attribute that gave none, because its values differ or mean something
+    /// else.
     pub(super) fn settle(&self, meanings: &mut Vec<(Meaning, Vec<String>)>) {
         meanings.retain(|(meaning, _)| *meaning != Meaning::Time || self.time().is_some());
     }

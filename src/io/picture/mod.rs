@@ -59,8 +59,8 @@ impl Layers {
         Self { width, height, ..Self::default() }
     }
 
-    /// Adds a channel, or replaces the one of that name. A channel at a reduced resolution (halved `n` times,
-    /// rounded up each time) is enlarged to the picture's size by repeating its texels.
+    /// Adds a channel, or replaces the one of that name. A channel at a reduced resolution (that of the picture halved
+    /// up to 8 times, rounded up each time) is enlarged to the picture's size by repeating its texels.
     ///
     /// # Errors
     /// [`PictureError::Size`] if `data` has neither the picture's size nor a reduced one.
@@ -114,7 +114,7 @@ impl Layers {
     }
 
     /// The displayed colour, sRGB from 0 to 1. Linear light is multiplied by 2^`exposure` and tone mapped as in
-    /// [`write_png`]; a picture that is in sRGB already is returned unchanged.
+    /// [`write_png`]; a picture that is in sRGB already is returned unchanged. `None` for a picture without colour.
     pub fn display(&self, exposure: f32) -> Option<Vec<[f32; 3]>> {
         self.shown(&Display { exposure, ..Display::default() })
     }
@@ -217,9 +217,9 @@ pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> 
     exr::write(layers, to)
 }
 
-/// Writes the colour as an 8-bit sRGB PNG, with `exposure` in stops, the tone map [`neutral`], and a dither of
-/// up to half a step in either direction against banding (the same in every run). A picture without colour is
-/// an error.
+/// Writes the colour as an 8-bit sRGB PNG. Linear light gets `exposure`, in stops, and the tone map [`neutral`]; a
+/// picture that is in sRGB already keeps its values. A dither of up to half a step in either direction, the same in
+/// every run, prevents banding. A picture without colour is an error.
 ///
 /// # Errors
 /// Errors of the writer.

@@ -5,9 +5,10 @@ use super::EMPTY;
 /// Eye-space normals of a depth picture (x, y and z per texel, towards the camera, which looks down -z).
 ///
 /// `slope` = `[sx, sy, ox, oy]` maps a texel centre (u, v), in texels, to x / depth = sx u + ox and y / depth =
-/// sy v + oy. A normal is the cross product of the differences to two neighbours, along x and along y. On each
-/// axis it is the neighbour whose depth is closer to the texel's own, so that normals do not bend at
-/// silhouettes. Normals are zero where there is no surface.
+/// sy v + oy. A normal is the cross product of the differences to two neighbours, one along x and one along y. On each
+/// axis the neighbour is used whose depth is closer to the texel's own, so that normals do not bend at silhouettes.
+/// The normal of a texel without a neighbour on one axis points at the camera. Normals are zero where there is no
+/// surface.
 pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [Vec<f32>; 3] {
     let [sx, sy, ox, oy] = slope;
     let at = |x: usize, y: usize| depth.get(y * width + x).copied().unwrap_or(EMPTY);

@@ -35,8 +35,8 @@ struct GeneratorSlot {
     timer: Timer,
 }
 
-/// Emits the whitewater of one body of water from its particles, step by step. Several views of the water can share
-/// it.
+/// Emits whitewater from the particles of one body of water, and moves and ages it, step by step. Several views of
+/// the water can share one generator.
 pub struct Generator {
     gpu: Arc<Gpu>,
     config: GeneratorConfig,
@@ -50,7 +50,7 @@ pub struct Generator {
 
 impl Generator {
     /// Creates pipelines and allocates memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
-    /// It starts without whitewater; the first step needs no [`record_reset`](Self::record_reset).
+    /// The generator starts without whitewater; the first step needs no [`record_reset`](Self::record_reset).
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -177,19 +177,19 @@ impl Generator {
         Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
-    /// Potentials of each fluid particle of the last step, in the order of its streams, as four `f32`: trapped air,
-    /// wave crest, energy (in the units of [`GeneratorSettings`]) and number of neighbours. A particle with a
+    /// Potentials of each fluid particle of the last step, in the order of the step's streams, as four `f32`: trapped
+    /// air, wave crest, energy (in the units of [`GeneratorSettings`]) and number of neighbours. A particle with a
     /// non-finite or huge position or velocity has zeros. The buffer has transfer-source usage.
     pub fn potentials(&self) -> vk::Buffer {
         self.passes.buffers.potentials.handle
     }
 
-    /// Six `u32`. The first is the number of slots in the streams of [`particles`](Self::particles) that were ever
-    /// used. Then, for the last step: its fluid particles; those of them with valid position and velocity; slots that
-    /// were free before its emission, among the used ones; particles that it emitted, including those that found no
-    /// slot. The sixth is the number of particles that found no slot, in all steps. The buffer has transfer-source
-    /// usage. A compute shader writes it, as it does the potentials; after a step, compute shaders and copies may
-    /// read both.
+    /// Six `u32`. The first is the number of slots in the streams of [`particles`](Self::particles) that have been
+    /// used. The next four are for the last step: its fluid particles; those of them with valid position and velocity;
+    /// slots that were free before its emission, among the used ones; particles that it emitted, including those that
+    /// found no slot. The sixth is the number of particles that found no slot, in all steps. The first and the sixth
+    /// count since the last reset or snapshot. The buffer has transfer-source usage. A compute shader writes it, as it
+    /// does the potentials; after a step, compute shaders and copies may read both.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
@@ -213,10 +213,12 @@ impl Generator {
         self.passes.record_copy(&self.gpu, cmd, (to, offset), true);
     }
 
-    /// Records a copy of a saved state back.
+    /// Records a copy of a state that [`record_save`](Self::record_save) has saved, from a buffer of the host back into
+    /// the generator.
     ///
     /// # Safety
-    /// Those of [`record_save`](Self::record_save), with transfer-source usage.
+    /// The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
+    /// and no pending writes. The conditions of [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
         self.fresh = false;
         self.passes.record_copy(&self.gpu, cmd, (from, offset), false);

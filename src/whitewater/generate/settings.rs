@@ -11,7 +11,8 @@ crate::contract::with!(GeneratorConfig, GeneratorSettings);
 pub struct GeneratorConfig {
     /// Maximum number of fluid particles per step, at least 1.
     pub max_fluid: u32,
-    /// Maximum stride in bytes of the buffers with the fluid particles' attributes, a multiple of 4, default 16.
+    /// Maximum stride in bytes of the buffers with the fluid particles' attributes, a multiple of 4, at least 12,
+    /// default 16.
     pub max_stride: u32,
     /// Maximum number of whitewater particles alive at a time, at least 1. Particles beyond it are not emitted, but
     /// counted ([`Generator::counts`](super::Generator::counts)).
@@ -63,8 +64,9 @@ pub struct GeneratorSettings {
     /// neighbours.
     pub spacing: f32,
     /// Range of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1) over which its emission rises from none to
-    /// the full rate, scene units per second. The potential sums the speeds at which neighbours approach a particle,
-    /// weighted by a kernel of their distance.
+    /// the full rate, scene units per second. The potential of a particle is a sum over its neighbours: the relative
+    /// speed, weighted by a kernel of the distance and by a factor from 0 (the two move straight apart) to 2 (straight
+    /// towards each other).
     pub trapped_air: PotentialRange,
     /// Range of the wave-crest potential (Sec. 3.1.2) over which its emission rises from none to the full rate. The
     /// potential measures convex curvature, has no unit, and counts only where the surface moves outwards.
@@ -73,10 +75,10 @@ pub struct GeneratorSettings {
     /// kinetic energy per mass. Over this range a factor on the emission from both other potentials rises from 0 to
     /// 1.
     pub energy: PotentialRange,
-    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. From all causes
+    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e12]. From all causes
     /// together, a fluid particle emits at most 64 particles per step.
     pub trapped_air_rate: f32,
-    /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e18].
+    /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e12].
     pub wave_crest_rate: f32,
     /// Minimum lifetime of foam, seconds, (0, max_lifetime], default 2. Spray and bubbles do not age.
     pub min_lifetime: f32,
@@ -84,10 +86,11 @@ pub struct GeneratorSettings {
     pub max_lifetime: f32,
     /// Acceleration, scene units per second squared, default (0, −9.81, 0).
     pub gravity: [f32; 3],
-    /// Buoyancy of a bubble relative to gravity, [0, 64], default 2 (k_b of Eq. 7).
+    /// Acceleration of a bubble against gravity, as a multiple of [`gravity`](Self::gravity), [0, 64], default 2 (k_b
+    /// of Eq. 7).
     pub buoyancy: f32,
-    /// Share of the difference between the water's velocity and its own that a bubble takes on in each step, [0, 1],
-    /// default 0.8 (k_d of Eq. 7).
+    /// Share of the difference between the water's velocity and a bubble's velocity that the bubble takes on in each
+    /// step, whatever the step's duration, [0, 1], default 0.8 (k_d of Eq. 7).
     pub drag: f32,
     /// Box (minimum and maximum corner) outside which whitewater particles are removed. With `None` (default), spray,
     /// which does not age, falls forever, and each particle of it occupies one of `max_particles`.
@@ -106,7 +109,7 @@ impl GeneratorSettings {
 
     /// The defaults with these limits of trapped air, wave crests and energy (in this order), and with `rate`
     /// (particles per second) as the maximum emission of one fluid particle from trapped air and also from wave crests.
-    /// Some ten thousand whitewater particles for a splash of as many fluid particles take a rate of 10 to 100.
+    /// A rate of 10 to 100 gives some ten thousand whitewater particles for a splash of ten thousand fluid particles.
     pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {

@@ -74,7 +74,7 @@ pub(super) fn seconds(number: u64, behind: &str) -> Option<f64> {
 }
 
 /// Length in bytes of the unit of time at the start of a text that follows a number in a file's name (`ms_fluid`);
-/// `None` if there is none. The units are ns, us, µs, ms, s, sec, min and h, and a unit ends its word.
+/// `None` if there is none. The units are ns, us, µs, ms, s, sec, min and h. No letter or digit may follow a unit.
 pub fn time_unit(text: &str) -> Option<usize> {
     Unit::parse(text).map(|(_, length)| length)
 }
