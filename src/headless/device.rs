@@ -13,15 +13,17 @@ use crate::gpu::requirements::DeviceSupport;
 /// Options for creating a [`Device`].
 #[derive(Clone, Debug, Default)]
 pub struct DeviceOptions {
-    /// A part of the adapter's name; case is ignored. `None` selects a GPU if there is one.
+    /// Part of the name of the device to use; case is ignored. `None`: any device. Of several that fit, a discrete GPU
+    /// is preferred, then an integrated one, then a virtual one, then any other device.
     pub name: Option<String>,
     /// Whether core and synchronization validation are on. [`Device::new`] fails if they are and the validation
     /// layer is not installed. Default false.
     pub validation: bool,
-    /// Whether to leave out every optional feature that selects a code path of its own, as on a device without
-    /// these features. Default false.
+    /// Whether to leave disabled the optional features for which the renderer has another code path, so that it works
+    /// as on a device that lacks them. Default false.
     pub bare: bool,
-    /// Whether to create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers.
+    /// Whether to create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers. Default
+    /// false.
     pub vulkan_1_2: bool,
 }
 
@@ -62,8 +64,8 @@ impl Device {
     /// Creates the instance and the device.
     ///
     /// # Errors
-    /// There is no Vulkan loader, no suitable device or, if validation is asked for, no validation layer; the error
-    /// says what to install.
+    /// There is no Vulkan loader, no driver or, if validation is asked for, no validation layer: the error says what to
+    /// install. No device fits: the error names those that were found. No memory; Vulkan errors.
     pub fn new(options: &DeviceOptions) -> Result<Self, Error> {
         // SAFETY: loading the system's Vulkan loader runs its initialisers only.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::Missing {

@@ -2,9 +2,10 @@
 
 use ash::vk;
 
+use super::generate::Generating;
 use super::inputs::{Foamed, WhitewaterBuffers};
 use super::submit::Parts;
-use super::transfer::staging;
+use super::transfer::{check_texels, staging};
 use super::{COLOR_REST, DEPTH_REST, Headless};
 use crate::bubbles::BlobSimulation;
 use crate::contract::{
@@ -34,16 +35,16 @@ pub enum Background<'a> {
 }
 
 impl Headless {
-    /// Sets the sphere that contains the water and foam that cast shadows and caustics and the part of the scene that
-    /// receives them, for [`Config::light_map_size`](crate::Config::light_map_size). The scene's own shadows on water
-    /// and foam need no sphere: with [`Shadows::Map`] or [`Shadows::Convolution`] they come from the scene's shadow
-    /// map.
+    /// Sets the sphere in which water and foam cast shadows and caustics. Frames need it exactly if
+    /// [`Config::light_map_size`](crate::Config::light_map_size) is set. The shadows that the scene casts on water and
+    /// foam need no sphere: with [`Shadows::Map`] or [`Shadows::Convolution`] they come from the scene's shadow map.
     pub fn region(&mut self, region: LightVolume) {
         self.region = Some(region);
     }
 
-    /// Sets what the next frame takes as its previous frame, for motion vectors
-    /// ([`Config::motion`](crate::Config::motion)).
+    /// Sets the camera of the previous frame and the time since, from which motion vectors are computed
+    /// ([`Config::motion`](crate::Config::motion)). They apply to all frames until the next call. `None`, as
+    /// initially: the vectors are zero.
     pub fn previous(&mut self, previous: Option<Previous>) {
         self.previous = previous;
     }
@@ -51,7 +52,8 @@ impl Headless {
     /// Draws one frame and waits for it.
     ///
     /// # Errors
-    /// Those of [`Renderer::record`](crate::Renderer::record).
+    /// No particles uploaded, no scene for [`Background::Scene`], no memory, and the errors of
+    /// [`Renderer::record`](crate::Renderer::record).
     pub fn render(
         &mut self,
         camera: &Camera,
@@ -62,11 +64,12 @@ impl Headless {
     }
 
     /// Like [`render`](Self::render), but the CPU decides when the smoothing of the water's depth ends: it submits
-    /// iterations block by block and reads each occlusion query back, as in the thesis of F. Bagar (2010). For
-    /// comparison only; needs [`Smoothing::Query`](crate::water::Smoothing::Query).
+    /// blocks of iterations one by one and reads each block's occlusion query back, as in the thesis of F. Bagar
+    /// (2010). For comparison only. Without [`Smoothing::Query`](crate::water::Smoothing::Query) it does what `render`
+    /// does.
     ///
     /// # Errors
-    /// Those of [`Renderer::record`](crate::Renderer::record).
+    /// Those of [`render`](Self::render).
     pub fn render_with_read_back(
         &mut self,
         camera: &Camera,
@@ -113,6 +116,8 @@ impl Headless {
     /// Staging buffers with colour and depth of a background from the CPU.
     fn staged(&self, background: &Background<'_>) -> Result<Option<[Buffer; 2]>, Error> {
         let Background::Images { color, depth } = background else { return Ok(None) };
+        check_texels("Background.color", self.color.extent, color.len())?;
+        check_texels("Background.depth", self.depth.extent, depth.len())?;
         let half: Vec<[u16; 4]> =
             color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
         let color = staging(&self.gpu, bytemuck::cast_slice(&half))?;
@@ -138,7 +143,7 @@ impl Headless {
             .generating
             .as_ref()
             .filter(|made| made.shown && self.renderer.config().whitewater.is_some());
-        let whitewater = made.map(|made| made.generator.particles());
+        let whitewater = made.map(Generating::particles);
         let whitewater =
             whitewater.or_else(|| self.whitewater.as_ref().map(WhitewaterBuffers::streams));
         let whitewater = whitewater.filter(|_| self.whitewater_shown);

@@ -3,7 +3,7 @@
 use ash::vk;
 
 use super::Headless;
-use super::transfer::staging;
+use super::transfer::{check_texels, staging};
 use crate::contract::{HostImage, Slot};
 use crate::environment::{Environment, EnvironmentSource, Equirectangular, Sky};
 use crate::error::Error;
@@ -35,7 +35,7 @@ impl Headless {
     /// Sets the built-in sky as environment.
     ///
     /// # Errors
-    /// Vulkan errors.
+    /// A value of `sky` outside its range; Vulkan errors.
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
         self.forget_scene();
@@ -46,11 +46,12 @@ impl Headless {
         })
     }
 
-    /// Sets an equirectangular image as environment: linear RGBA, row 0 up. `scale` multiplies its radiance,
-    /// and `turn` rotates it around up, in radians, see [`Equirectangular`].
+    /// Sets an equirectangular image as environment: linear RGBA, row by row, the top row first. `scale` multiplies its
+    /// radiance, and `turn` rotates it around the up direction, +y, in radians, as in [`Equirectangular`].
     ///
     /// # Errors
-    /// The picture exceeds the device's limit of image size; there is no memory for it; Vulkan errors.
+    /// The number of texels differs from `extent`; the picture exceeds the device's limit of image size; `scale` or
+    /// `turn` is out of range; there is no memory for the picture; Vulkan errors.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,
@@ -62,11 +63,12 @@ impl Headless {
     }
 
     /// Sets an equirectangular image that contains the sun, which the scene and [`Light`](crate::Light) also
-    /// describe, and the same image without the sun. Water and sky show the image with the sun; diffuse light
-    /// comes from the one without it, so that the sun is not counted twice.
+    /// describe, and the same image without the sun. The sky and the reflections in the particles' water show the image
+    /// with the sun. Diffuse light, and all light and reflections on the scene, come from the image without it, so that
+    /// the sun is not counted twice.
     ///
     /// # Errors
-    /// Those of [`equirectangular`](Self::equirectangular), and pictures of different sizes.
+    /// Those of [`equirectangular`](Self::equirectangular), and two images with different numbers of texels.
     pub fn equirectangular_with_sun(
         &mut self,
         extent: vk::Extent2D,
@@ -98,6 +100,7 @@ impl Headless {
                 format!("expected at most {most}x{most} texels on this device, found {found}");
             return Err(Error::bad("Equirectangular.image.extent", why));
         }
+        check_texels("Equirectangular.image", extent, pixels.len())?;
         let shown = self.picture("headless/equirect", extent, pixels)?;
         let lights = without_sun
             .map(|pixels| self.picture("headless/equirect/without sun", extent, pixels))

@@ -1,9 +1,11 @@
 //! Whitewater emitted from the fluid's particles.
 
 use super::Headless;
-use super::inputs::HOST_WRITE;
-use crate::contract::{Count, GeneratorStep, Slot};
+use super::inputs::{HOST_WRITE, input};
+use crate::contract::{Count, GeneratorStep, Slot, Stream, WhitewaterParticles};
 use crate::error::Error;
+use crate::gpu::buffer::Buffer;
+use crate::gpu::graveyard::Destroy;
 use crate::whitewater::{Generator, GeneratorConfig, GeneratorSettings};
 
 /// The generator and its state.
@@ -14,6 +16,20 @@ pub(super) struct Generating {
     pub shown: bool,
     /// Number of fluid particles in the last step.
     count: u32,
+    /// Places and ages of the particles at another time than that of the last step, if they are drawn there.
+    moved: Option<Buffer>,
+}
+
+impl Generating {
+    /// The particles as the next frame shows them.
+    pub fn particles(&self) -> WhitewaterParticles {
+        let mut particles = self.generator.particles();
+        if let Some(moved) = &self.moved {
+            particles.positions.buffer = moved.handle;
+            particles.ages = particles.ages.map(|ages| Stream { buffer: moved.handle, ..ages });
+        }
+        particles
+    }
 }
 
 /// The live whitewater particles, on the CPU.
@@ -35,13 +51,14 @@ pub struct Generated {
 
 impl Headless {
     /// Emits whitewater from the particles uploaded last and their [`motion`](Self::motion): one step of a
-    /// [`Generator`]. The next frame shows the whitewater if [`Config::whitewater`](crate::Config::whitewater) has
-    /// the same maximum number of particles and strides of 16 bytes. `dt` is the time since the previous step in
-    /// seconds, `number` the step's number in the sequence, `max_particles` the max number alive (a different value
-    /// restarts the generator).
+    /// [`Generator`]. The frames that follow show the whitewater if [`Config::whitewater`](crate::Config::whitewater)
+    /// is set. They fail if it allows only strides below 16 bytes, and lack particles if it allows fewer than
+    /// `max_particles`. `dt` is the time since the previous step in seconds, `number` the step's number in the
+    /// sequence, `max_particles` the maximum number of whitewater particles alive (a different value restarts the
+    /// generator).
     ///
     /// # Errors
-    /// No motion, no memory, and those of [`Generator::record_step`].
+    /// No particles or no motion uploaded, no memory, and the errors of [`Generator::record_step`].
     pub fn generate(
         &mut self,
         dt: f32,
@@ -52,7 +69,8 @@ impl Headless {
         self.generate_any(Some(dt), number, settings, max_particles)
     }
 
-    /// Like [`generate`](Self::generate), but from the current frame alone: a [snapshot](Generator::record_snapshot).
+    /// Like [`generate`](Self::generate), but from the current frame alone: a [snapshot](Generator::record_snapshot),
+    /// which replaces the whitewater of earlier steps.
     ///
     /// # Errors
     /// Those of [`generate`](Self::generate).
@@ -94,7 +112,7 @@ impl Headless {
                 let fluid = self.renderer.config().max_particles;
                 let config = GeneratorConfig::new(fluid, max_particles);
                 let generator = Generator::new(&self.context, &config)?;
-                Generating { generator, max_particles, shown: false, count: 0 }
+                Generating { generator, max_particles, shown: false, count: 0, moved: None }
             }
         };
         let step = GeneratorStep {
@@ -119,6 +137,9 @@ impl Headless {
         if result.is_err() {
             generating.generator.abandon(Slot(0));
         }
+        if let Some(moved) = generating.moved.take() {
+            moved.destroy(&self.gpu);
+        }
         generating.shown = result.is_ok();
         generating.count = if result.is_ok() { count } else { 0 };
         self.generating = Some(generating);
@@ -132,9 +153,40 @@ impl Headless {
         }
     }
 
-    /// Four values for each fluid particle in the last [`generate`](Self::generate): the potentials of trapped air,
-    /// wave crest and energy, in the units of [`GeneratorSettings`], and the number of neighbours. Particles with a
-    /// non-finite or huge position or velocity have zeros.
+    /// Lets the next frames show the emitted whitewater `seconds` after the last [`generate`](Self::generate), or
+    /// before it if negative: each particle is moved along its velocity. With 0 it is shown where it is. This has no
+    /// effect on [`generated`](Self::generated) and on the next step, which ends it.
+    ///
+    /// # Errors
+    /// No memory; Vulkan errors.
+    pub fn move_generated(&mut self, seconds: f32) -> Result<(), Error> {
+        let Some(generating) = self.generating.as_mut() else { return Ok(()) };
+        if let Some(old) = generating.moved.take() {
+            old.destroy(&self.gpu);
+        }
+        if seconds == 0.0 {
+            return Ok(());
+        }
+        let places = generating.generator.particles().positions;
+        let drifts = generating.generator.velocities();
+        let mut moved = self.read_buffer(places.buffer, places.size)?;
+        let drifts = self.read_buffer(drifts.buffer, drifts.size)?;
+        for (place, drift) in moved.chunks_exact_mut(4).zip(drifts.chunks_exact(4)) {
+            for (at, speed) in place.iter_mut().zip(drift).take(3) {
+                *at = (f32::from_bits(*at) + seconds * f32::from_bits(*speed)).to_bits();
+            }
+        }
+        let moved = input(&self.gpu, "headless/generated/moved", bytemuck::cast_slice(&moved))?;
+        if let Some(generating) = &mut self.generating {
+            generating.moved = Some(moved);
+        }
+        Ok(())
+    }
+
+    /// Four values for each fluid particle of the last [`generate`](Self::generate): the potentials of trapped air,
+    /// wave crest and energy, in the units of [`GeneratorSettings`], and the number of neighbours. All four are 0 for a
+    /// particle with a non-finite or huge position or velocity. The list is empty before the first step and after one
+    /// that failed.
     ///
     /// # Errors
     /// No memory; Vulkan errors.
@@ -148,8 +200,9 @@ impl Headless {
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
-    /// Number of whitewater particles shown after the last [`generate`](Self::generate), and total number of
-    /// those that were not emitted because all `max_particles` slots were taken.
+    /// Number of whitewater particles alive after the last [`generate`](Self::generate), and number of those that were
+    /// not emitted in any step so far, because all `max_particles` slots were taken. Both are 0 while the emitted
+    /// whitewater is hidden.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

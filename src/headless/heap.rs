@@ -10,9 +10,9 @@ use crate::contract::{Slot, Stream};
 use crate::error::Error;
 
 impl Headless {
-    /// Starts a [`BlobSimulation`] with blobs at rest. The frames that follow show the blobs as
-    /// [`heap_step`](Self::heap_step) moves them. [`Config::bubbles`](crate::Config::bubbles) needs room for their
-    /// number times 2^`max_splits` ([`BlobSimulationConfig::max_splits`]).
+    /// Starts a [`BlobSimulation`] with blobs at rest, instead of an earlier one. The frames that follow show the blobs
+    /// as [`heap_step`](Self::heap_step) moves them. [`Config::bubbles`](crate::Config::bubbles) needs room for their
+    /// number times 2^`max_splits` ([`BlobSimulationConfig::max_splits`]). `field` holds solids that do not move.
     ///
     /// # Errors
     /// Those of [`BlobSimulation::new`] and [`BlobSimulation::record_set`]. After an error there is no simulation.
@@ -77,7 +77,8 @@ impl Headless {
     }
 
     /// The simulated blobs after the last step, in the order of [`heap`](Self::heap), followed by the slots for
-    /// blobs that splitting adds. Unused slots are zeros. The list is empty without a simulation.
+    /// blobs that splitting adds. In unused slots the [`ball`](Bubble::ball) is all zeros. The list is empty without a
+    /// simulation.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

@@ -178,9 +178,9 @@ impl WhitewaterParts<'_> {
     /// Uploads the next particles. The slices need not outlive the call.
     ///
     /// # Errors
-    /// Fails if an attribute is not as long as the positions, if the part has other attributes than the previous part, if
-    /// memory runs out, or if there are more whitewater particles than `whitewater_parts` announced. The failed part is
-    /// ignored.
+    /// An attribute is not as long as the positions; the part has other attributes than the previous part; there are
+    /// more whitewater particles than [`Headless::whitewater_parts`] announced; no memory; Vulkan errors. The failed
+    /// part is ignored: the upload may go on with another one.
     pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
@@ -316,11 +316,12 @@ pub(super) fn stream(buffer: &Buffer, stride: u32) -> Stream {
 }
 
 impl Headless {
-    /// Uploads the particles of a frame.
+    /// Uploads the particles of a frame. Densities, velocities and ids that were uploaded before are discarded.
     ///
     /// # Errors
-    /// More than [`Config::max_particles`](crate::Config::max_particles), densities of another length,
-    /// no memory.
+    /// Another number of densities than of positions; no memory. More particles than
+    /// [`Config::max_particles`](crate::Config::max_particles) are refused only by the calls that use them, such as
+    /// [`render`](Self::render).
     pub fn particles(
         &mut self,
         positions: &[[f32; 3]],
@@ -346,11 +347,11 @@ impl Headless {
         Ok(())
     }
 
-    /// Replaces the densities of the particles that were uploaded last: surface foam may step with the densities of a
-    /// file, and spray be drawn by others.
+    /// Replaces the densities of the particles that were uploaded last. A caller can thus advance surface foam with the
+    /// densities of a file, and then draw the frame, whose spray follows from densities, with other values.
     ///
     /// # Errors
-    /// The number of densities differs from the number of particles uploaded, or none were uploaded with them.
+    /// The number of densities differs from the number of particles, or the particles were uploaded without densities.
     pub fn replace_densities(&mut self, densities: &[f32]) -> Result<(), Error> {
         match &mut self.densities {
             Some(buffer) if densities.len() == self.count as usize => {
@@ -362,7 +363,8 @@ impl Headless {
         }
     }
 
-    /// Replaces the positions of the particles that were uploaded last; their densities, foam and velocities stay.
+    /// Replaces the positions of the particles that were uploaded last; their densities, velocities, ids and surface
+    /// foam stay.
     ///
     /// # Errors
     /// The number of positions differs from the number of particles uploaded.
@@ -377,12 +379,12 @@ impl Headless {
         }
     }
 
-    /// Uploads the motion of the particles uploaded last: velocities, for foam, spray and motion vectors, and `ids`
-    /// that identify particles from frame to frame, so that the noise in foam, and droplets, stay attached to their
-    /// particles.
+    /// Uploads the motion of the particles uploaded last. It has velocities, for foam, whitewater, spray and motion
+    /// vectors, and `ids` that identify particles from frame to frame, so that foam, its noise and the droplets of
+    /// spray stay attached to their particles.
     ///
     /// # Errors
-    /// A number of velocities or ids that differs from that of positions, no memory.
+    /// A number of velocities or ids that differs from that of positions; no memory.
     pub fn motion(&mut self, velocities: &[[f32; 3]], ids: Option<&[u32]>) -> Result<(), Error> {
         let all = |length: usize| length == self.count as usize;
         if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
@@ -399,7 +401,8 @@ impl Headless {
         Ok(())
     }
 
-    /// Uploads the blobs of bubble foam of a frame, with [`Config::bubbles`](crate::Config::bubbles).
+    /// Uploads the blobs of bubble foam of a frame, with [`Config::bubbles`](crate::Config::bubbles). It ends a
+    /// simulation that [`heap`](Self::heap) has started.
     ///
     /// # Errors
     /// More than [`BubbleConfig::max_blobs`](crate::bubbles::BubbleConfig::max_blobs), no memory. After an error there
@@ -487,10 +490,10 @@ impl Headless {
 
     /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a
     /// [`SurfaceFoamState`] from the particles' [`motion`](Self::motion). `dt` is the time since the previous step in
-    /// seconds. Without `dt` or ids, the foam of each frame is independent of earlier frames.
+    /// seconds. If `dt` is `None`, or the motion has no ids, the foam follows from the current particles alone.
     ///
     /// # Errors
-    /// No motion, no memory, and those of [`SurfaceFoamState::record_step`].
+    /// No motion uploaded, no memory, and the errors of [`SurfaceFoamState::record_step`].
     pub fn step(&mut self, dt: Option<f32>, settings: &WeberSettings) -> Result<(), Error> {
         let Some(velocities) = &self.velocities else {
             return Err(Error::bad("velocities", "none uploaded"));

@@ -5,7 +5,7 @@
 //! [`Headless::particles`] and [`Headless::motion`] the fluid, [`Headless::whitewater`] or, in parts,
 //! [`Headless::whitewater_parts`] the whitewater, [`Headless::sky`] or [`Headless::equirectangular`] the environment,
 //! and [`Headless::scene`] the background. [`Headless::render`] then draws the frame, and the picture and its layers
-//! can be read back. Every call submits its commands and waits for them.
+//! can be read back. A call that records commands also submits them and waits for them.
 
 mod device;
 mod draw;
@@ -129,11 +129,11 @@ pub struct Headless {
 }
 
 impl Headless {
-    /// Creates the renderer, with `config` except for its output format ([`COLOR_FORMAT`]), `in_place` and
-    /// `keep_layers` (both true).
+    /// Creates the renderer, and sets the built-in sky as environment. Three values of `config` are replaced: the
+    /// output format by [`COLOR_FORMAT`], `in_place` and `keep_layers` by true.
     ///
     /// # Errors
-    /// Those of [`Renderer::new`].
+    /// Those of [`Context::new`] and [`Renderer::new`].
     pub fn new(device: Device, config: &Config) -> Result<Self, Error> {
         let config =
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };

@@ -7,6 +7,7 @@ use glam::Mat4;
 
 use super::Headless;
 use super::inputs::{HOST_WRITE, input, stream};
+use super::transfer::{check_texels, staging};
 use crate::contract::{Shore, Shoreline, Slot, Strip, Triangles};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -91,18 +92,19 @@ impl Shores {
 }
 
 impl Headless {
-    /// Sets the water surface, mask and bias of shoreline and contact foam for the next frames; `None` draws neither.
-    /// It needs [`Config::shore`](crate::Config::shore). The shoreline is that of [`shore_strip`](Self::shore_strip)
-    /// or [`shore_map`](Self::shore_map) if one was set.
+    /// Sets the water surface, shoreline, mask and bias of shoreline and contact foam for the frames that follow; with
+    /// `None` they have no such foam. `Some` needs [`Config::shore`](crate::Config::shore). What
+    /// [`shore_strip`](Self::shore_strip), [`shore_map`](Self::shore_map) and [`shore_mask`](Self::shore_mask) set
+    /// replaces the shoreline and the mask given here.
     pub fn shore(&mut self, shore: Option<Shore>) {
         self.shores.shore = shore;
     }
 
-    /// Sets a strip, a mesh around islands that foam is drawn on, with the shore coordinate v of each vertex.
-    /// It replaces an earlier strip, and an earlier or later map.
+    /// Sets a strip, a mesh around islands that foam is drawn on, with the shore coordinate v of each vertex. It
+    /// replaces an earlier strip. While there is a strip, frames use no map ([`shore_map`](Self::shore_map)).
     ///
     /// # Errors
-    /// Numbers of vertices and values of v differ; no memory; Vulkan errors.
+    /// The numbers of vertices and of values of v differ; no memory; Vulkan errors.
     pub fn shore_strip(&mut self, mesh: &ShoreMesh<'_>, v: &[f32]) -> Result<(), Error> {
         self.shores.strip = None;
         self.gpu.bury();
@@ -116,8 +118,9 @@ impl Headless {
         Ok(())
     }
 
-    /// Sets a map of distances to the shores of meshes, with `size` texels along each axis. It replaces an
-    /// earlier map, but a strip takes precedence over it. [`shore_map_step`](Self::shore_map_step) fills it.
+    /// Sets a map of distances to the shores of meshes, with `size` texels along each axis. It replaces an earlier map.
+    /// Frames use it after [`shore_map_step`](Self::shore_map_step) has filled it, unless a strip
+    /// ([`shore_strip`](Self::shore_strip)) was set.
     ///
     /// # Errors
     /// Those of [`ShoreMap::new`].
@@ -135,7 +138,7 @@ impl Headless {
     /// [`ShoreMapStep::changed`].
     ///
     /// # Errors
-    /// No map, another number of meshes, and those of [`ShoreMap::record_step`].
+    /// No map, a number of transforms that differs from that of meshes, and the errors of [`ShoreMap::record_step`].
     pub fn shore_map_step(
         &mut self,
         area: &Area,
@@ -173,8 +176,8 @@ impl Headless {
         map.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// Sets the foam texture of the next frames, instead of the built-in one: 1 where foam appears first, 0 where it
-    /// appears last. `size` is the number of texels along each axis.
+    /// Sets the foam texture of the frames that follow, instead of the built-in one: 1 where foam appears first, 0
+    /// where it appears last. `size` is the number of texels along x and y.
     ///
     /// # Errors
     /// The number of texels differs from `size`; no [`Config::shore`](crate::Config::shore); no memory; Vulkan
@@ -191,8 +194,8 @@ impl Headless {
         })
     }
 
-    /// Sets a mask over the whole picture for the contact foam of the next frames, replacing an earlier one: 0
-    /// suppresses the foam completely, 1 not at all. `size` is the number of texels along each axis.
+    /// Sets a mask over the whole picture for the contact foam of the frames that follow, instead of an earlier mask: 0
+    /// suppresses the foam completely, 1 not at all. `size` is the number of texels along x and y.
     ///
     /// # Errors
     /// The number of texels differs from `size`; no memory; Vulkan errors.
@@ -215,16 +218,12 @@ impl Headless {
         [width, height]: [u32; 2],
         texels: &[f32],
     ) -> Result<(Image, Buffer), Error> {
-        if width == 0 || height == 0 || texels.len() as u64 != u64::from(width) * u64::from(height)
-        {
-            let why = format!("{} texels of {width}x{height}", texels.len());
-            return Err(Error::bad(field, why));
-        }
-        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let extent = vk::Extent2D { width, height };
+        check_texels(field, extent, texels.len())?;
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let desc = ImageDesc::new("headless/shore", extent, vk::Format::R32_SFLOAT, usage);
         let image = Image::new(&self.gpu, &desc)?;
-        Ok((image, super::transfer::staging(&self.gpu, bytemuck::cast_slice(texels))?))
+        Ok((image, staging(&self.gpu, bytemuck::cast_slice(texels))?))
     }
 
     pub(super) fn drop_shores(&mut self) {

@@ -54,20 +54,22 @@ impl Kept {
 
 impl Headless {
     /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias` draws its
-    /// colour with four samples per pixel. The light of the scene is baked, so a new sun needs a new scene.
+    /// colour with four samples per pixel, if the device supports that. The light of the scene is baked here, so a
+    /// change of its sun needs another call.
     ///
     /// # Errors
-    /// Invalid parameters of sun or sea, no memory, Vulkan errors.
+    /// Those of [`SceneRenderer::new`]. After an error there is no scene.
     pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time). Only meshes in
-    /// [`Scene::motions`] and the sea may move. Moving parts keep their baked light, and the sun's shadow map
-    /// is redrawn. If only the sea moves, nothing is uploaded or redrawn here.
+    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time): `scene` is the current
+    /// scene with other values of these two. Only meshes in [`Scene::motions`] and the sea may move. Moving meshes keep
+    /// their baked light, and the sun's shadow map is redrawn. If only the sea moves, nothing is uploaded or redrawn
+    /// here. Without a current scene, `scene` becomes the current one, as with [`Headless::scene`].
     ///
     /// # Errors
-    /// Those of [`scene`](Self::scene).
+    /// Those of [`SceneRenderer::new`], and an invalid time.
     pub fn scene_frame(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         if let Some(stage) = &mut self.scene {
             let (frame, smoothed) = stage.drawn;

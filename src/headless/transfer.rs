@@ -21,6 +21,16 @@ const HOST_READ: Access = Access::new(
     vk::ImageLayout::GENERAL,
 );
 
+/// Fails unless a picture of this extent has this number of texels: a copy from fewer would read past their end.
+pub fn check_texels(field: &'static str, extent: vk::Extent2D, found: usize) -> Result<(), Error> {
+    let (width, height) = (extent.width, extent.height);
+    if width == 0 || height == 0 || found as u64 != u64::from(width) * u64::from(height) {
+        let why = format!("expected one value for each of {width}x{height} texels, found {found}");
+        return Err(Error::bad(field, why));
+    }
+    Ok(())
+}
+
 /// A mapped staging buffer with these bytes.
 pub fn staging(gpu: &Gpu, bytes: &[u8]) -> Result<Buffer, Error> {
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;
@@ -122,7 +132,8 @@ impl Headless {
     }
 
     /// Numbers of samples that the occlusion queries of the smoothing counted in the last frame, in iterations
-    /// 5, 10, …; empty if the smoothing uses no queries.
+    /// 5, 10, …: 0 for a block of five iterations that was skipped. The last block is not counted. Empty if the
+    /// smoothing uses no queries.
     ///
     /// # Errors
     /// No memory; Vulkan errors.
@@ -195,9 +206,9 @@ impl Headless {
     ///   of `water.thickness.sheets`.
     /// - `surface_foam.front` is the thickness of the front foam layer, a channel of `surface_foam.thickness`.
     /// - `motion.X` and `motion.Y` are channels of `motion`.
-    /// - Whitewater has `whitewater` (depth), `whitewater.intensity`, `whitewater.thickness`, `whitewater.submerged` (the part of the
-    ///   thickness behind the water's surface), `whitewater.normal.X`, `.Y`, `.Z`, `whitewater.radius` (search radius),
-    ///   `whitewater.irradiance.R`, `.G`, `.B` and `whitewater.shadow`.
+    /// - Whitewater has `whitewater` (depth), `whitewater.intensity`, `whitewater.thickness`, `whitewater.submerged`
+    ///   (the part of the thickness behind the water's surface), `whitewater.normal.X`, `.Y`, `.Z`,
+    ///   `whitewater.radius` (search radius), `whitewater.irradiance.R`, `.G`, `.B` and `whitewater.shadow`.
     /// - Bubble foam has `bubbles` (depth) and `bubbles.layers` (number of composited blobs).
     /// - Shores have `shore.amount` and `contact.amount`.
     ///

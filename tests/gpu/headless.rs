@@ -313,3 +313,41 @@ fn a_failed_step_keeps_the_state() {
     assert_eq!(allocations(headless.device()), held, "nothing is left behind");
     drop(headless.finish().expect("finish"));
 }
+
+/// Pictures with too few or too many values are refused: a copy from fewer would read past their end.
+#[test]
+fn pictures_that_are_no_whole_pictures_are_refused() {
+    let mut gpu = Gpu::own();
+    let mut headless = Headless::new(gpu.take_device(), &config(SIZE)).expect("headless");
+    let camera = scenes::camera(Lens::Standard, SIZE);
+    let settings = scenes::settings(0.2);
+    let points = scenes::world(&camera, &[[0.0, 0.0, 3.0]]);
+    headless.particles(&points, None).expect("particles");
+    let all = (SIZE.width * SIZE.height) as usize;
+    let mut drawn = |color: usize, depth: usize| {
+        let (color, depth) = (vec![[0.5; 4]; color], vec![0.0; depth]);
+        let pictures = Background::Images { color: &color, depth: &depth };
+        headless.render(&camera, &settings, &pictures).map_err(|error| error.to_string())
+    };
+    assert_eq!(drawn(all, all), Ok(()));
+    for (color, depth, field) in [(all - 1, all, "color"), (all, all + 1, "depth"), (0, 0, "color")]
+    {
+        let error = drawn(color, depth).expect_err("not a whole picture");
+        assert!(
+            error.contains(&format!("Background.{field}")) && error.contains("32x16"),
+            "{error}"
+        );
+    }
+    let mut around = |width: u32, texels: usize| {
+        let picture = vec![[0.5; 4]; texels];
+        let extent = vk::Extent2D { width, height: 4 };
+        headless.equirectangular(extent, &picture, 1.0, 0.0).map_err(|error| error.to_string())
+    };
+    assert_eq!(around(8, 32), Ok(()));
+    for (width, texels) in [(8, 31), (8, 33), (0, 0)] {
+        let error = around(width, texels).expect_err("not a whole picture");
+        assert!(error.contains("Equirectangular.image"), "{error}");
+    }
+    let device = headless.finish().expect("finish");
+    assert_eq!(device.take_messages(), Vec::<String>::new());
+}

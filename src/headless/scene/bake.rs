@@ -123,9 +123,10 @@ impl Baked {
     }
 }
 
-/// Lengths in diagonals of the scene: the distance from its centre to which the ground extends, and the
-/// distances at which the ground begins and ends to fade.
+/// Distance from the scene's centre to which the ground extends along x and z, unless it has a
+/// [`reach`](Ground::reach). Unit: diagonals of the scene.
 pub const GROUND_REACH: f32 = 60.0;
+/// Distances from the scene's centre at which the ground begins and ends to fade. Unit: diagonals of the scene.
 pub const GROUND_FADE: [f32; 2] = [6.0, 45.0];
 
 /// Transforms a mesh to world space. A triangle with a vertex that is not finite is dropped. Also sets `bulge`.

@@ -44,11 +44,11 @@ impl Scene {
         }
     }
 
-    /// Reads the default scene of a glTF file: triangles, base colours and base colour textures.
+    /// Reads the default scene of a glTF file: triangles, base colours, base colour textures and roughness.
     ///
     /// # Errors
-    /// The file cannot be read, is no glTF 2.0, or uses an unsupported feature: sparse, compressed or base64
-    /// data.
+    /// The file cannot be read, is no glTF 2.0, has no triangles, requires an unsupported extension, or uses an
+    /// unsupported feature: sparse, compressed or base64 data.
     pub fn load_glb(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
@@ -76,19 +76,20 @@ impl Scene {
     /// Reads a Wavefront file from memory.
     ///
     /// # Errors
-    /// The text is no valid Wavefront OBJ: the error says what was expected, what was found, and in which line.
+    /// The text is no valid Wavefront OBJ, or has no faces: the error says what was expected, what was found, and for a
+    /// bad line its number.
     pub fn parse_obj(bytes: &[u8]) -> Result<Self, String> {
         super::obj::parse(bytes)
     }
 
     /// Reads the project's own format: boxes, cylinders and tubes (upright or rotated), spheres, a ground, a
-    /// camera, a sun, and for moving parts, which are listed by name, one pose per frame. Boxes whose names
-    /// begin with `basin` form a basin: their inward faces are tiled, with a dark row at the height
-    /// `pool_level`.
+    /// camera, a sun, and for moving parts, which are listed by name, one pose per frame. Two or more boxes whose names
+    /// begin with `basin` form a basin: faces of these boxes that look into it are tiled, with a row of darker tiles at
+    /// the height `pool_level` if the file has one.
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, has an unknown key or another unit than metres, has neither
-    /// shapes nor a ground, or names an unknown material.
+    /// shapes nor a ground, names an unknown material or part, or has a value out of range, such as a radius of 0.
     pub fn from_json(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;

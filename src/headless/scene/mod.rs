@@ -33,27 +33,27 @@ pub struct Scene {
     pub camera: Option<Viewpoint>,
     /// Motion of meshes from frame to frame. Meshes in no motion are static.
     pub motions: Vec<Motion>,
-    /// The frame that is drawn; [`Headless::scene_frame`](super::Headless::scene_frame) changes it.
+    /// The frame that is drawn. [`Headless::scene_frame`](super::Headless::scene_frame) applies a change of it.
     pub frame: u64,
     /// Water or lava that meshes and ground stand in.
     pub sea: Option<Sea>,
     /// Time of the frame in seconds, which moves the sea.
     pub time: f64,
-    /// Distant opaque meshes around the scene: lawns, hedges, trees, a room's walls. They are lit by sun and
-    /// sky at their vertices, without subdivision. Rays from each vertex find how much of the sky and the sun is
-    /// visible there: 64 to the sky near [`meshes`](Self::meshes), few farther away, none very far away. The backdrop
-    /// casts no shadow on meshes or water and reflects no light to them.
-    /// [`bounds`](Self::bounds), shadow map and ground ignore it. It is static.
+    /// Distant opaque meshes around the scene: lawns, hedges, trees, a room's walls. How much of the sky and the sun is
+    /// visible from them is baked at their own vertices, without subdivision, by rays: 64 per vertex to the sky near
+    /// [`meshes`](Self::meshes), 6 or 4 farther away, none very far away. The backdrop casts no shadow on meshes,
+    /// ground or water and reflects no light to them. [`bounds`](Self::bounds) and the shadow map ignore it. It is
+    /// static.
     pub backdrop: Vec<Mesh>,
-    /// Distance over which air reduces the contrast of [`ground`](Self::ground), [`backdrop`](Self::backdrop) and
-    /// [`sea`](Self::sea) to 1/e, towards the environment's colour at the horizon; in a scene with a sea of water,
-    /// that of green, while red fades less and blue more. World units, (0, ∞). `None`, the default: clear air. Meshes
-    /// are always in clear air.
+    /// Distance over which hazy air reduces the contrast of [`ground`](Self::ground), [`backdrop`](Self::backdrop) and
+    /// [`sea`](Self::sea) to 1/e, towards the environment's colour at the horizon. World units, (0, ∞). If the sea is
+    /// water, the distance holds for green light; red fades less and blue more. `None`, the default: clear air.
+    /// [`meshes`](Self::meshes) are always in clear air.
     pub haze: Option<f32>,
     /// Strength, [0, 1], default 0, of three additions to the visible sky: thin high clouds, a bright band of haze
     /// over the horizon, and bluer air above that band. The [`sea`](Self::sea) reflects all three (the clouds as
     /// their mean opacity), meshes only the band. The clouds light meshes a little and soften the sun's shadows on
-    /// them. Reflections in the particles' water and its lighting ignore all three.
+    /// them. The particles' water neither reflects any of the three nor is lit by them.
     pub clouds: f32,
     /// Rectangle, `[[min x, min z], [max x, max z]]`, of a basin whose water has splashed: stone and paving round
     /// it are damp in patches. `None`, the default: all is dry.
@@ -189,7 +189,8 @@ pub enum Pattern {
     Tiles {
         /// Edge of a tile.
         size: f32,
-        /// World height of a row of darker tiles, as pools have at the water's level; `None`: no such row.
+        /// Height in world space at which upright faces have a row of darker tiles, as pools have at the water's
+        /// level; `None`: no such row.
         band: Option<f32>,
     },
     /// Weathered boards along the mesh's x axis.
@@ -211,15 +212,15 @@ pub enum Pattern {
     },
     /// Sand.
     Sand,
-    /// Stone slabs, one and a half times as long as wide
+    /// Stone slabs, one and a half times as long as wide.
     Paving {
-        /// Width of a slab
+        /// Width of a slab.
         size: f32,
     },
     /// Sand around the height of the [`Sea`] (0 without one), grass above, rock where it is steep, some weed
     /// under water.
     Island {
-        /// Height above the sea up to which there is sand
+        /// Height above the sea up to which there is sand.
         beach: f32,
     },
     /// Natural rock; dark where the [`Sea`] wets it.
@@ -235,7 +236,7 @@ pub enum Pattern {
     },
     /// Sand with ripples, as the sea leaves it, and pebbles.
     Ripples {
-        /// Distance from crest to crest
+        /// Distance from crest to crest.
         length: f32,
     },
 }
@@ -251,7 +252,8 @@ impl Material {
         Self { base_color, roughness, pattern, texture: None }
     }
 
-    /// The materials that scene files know by name; `None` for any other.
+    /// The material that scene files know by this name; `None` for a name that is not in
+    /// [`NAMES`](Self::NAMES).
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "plain" => Self::default(),

@@ -16,14 +16,14 @@ const FLATTER: f64 = 0.93;
 /// Acceleration by gravity: 9.81 m/s², with a world unit taken as a metre.
 const GRAVITY: f64 = 9.81;
 
-/// A level sheet of water or lava that extends to the horizon, with gentle waves. Lengths are in world units, y is
+/// A level sheet of water with gentle waves, or of lava, that extends to the horizon. Lengths are in world units, y is
 /// up. The speed of the waves follows from gravity, for which a world unit is taken as a metre.
 ///
-/// It is visible but not in the depth buffer: the scene's depth and shadow map stay those of the ground below.
+/// The sheet is visible but not in the depth buffer: the scene's depth and shadow map stay those of the ground below.
 /// Water absorbs and scatters light along the refracted ray, but shows the scene along the straight one:
 /// refraction moves no edges, it only makes the patterns on surfaces under water waver. Sunlight is focused on
-/// the floor (caustics). Solids cast no shadow on the surface, which reflects only the environment and the sun.
-/// A camera below the level does not see it.
+/// the floor (caustics). Solids cast no shadow on the surface of water, which reflects only the environment and the
+/// sun. A camera below the sheet's level does not see the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sea {
     /// Mean height, default 0.
@@ -32,17 +32,17 @@ pub struct Sea {
     pub absorption: [f32; 3],
     /// Isotropic scattering per world unit, linear RGB, [0, ∞), default that of a clear sea in a scene in metres.
     pub scattering: [f32; 3],
-    /// Height of the largest waves from trough to crest, world units, [0, ∞), default 0.22; 0 is a mirror. Lava has
-    /// none.
+    /// Height of the largest waves from trough to crest, world units, [0, ∞), default 0.22; 0 makes the water a flat
+    /// mirror. Lava has no waves.
     pub waves: f32,
     /// Length of the largest waves, world units, (0, ∞), default 11. For lava: size of its crust's plates.
     pub length: f32,
     /// Direction of the largest waves, or of the lava's flow: world x and z, any length except 0, default [0.8,
     /// 0.6].
     pub towards: [f32; 2],
-    /// Period after which everything repeats, seconds, (0, ∞). `None`, the default: never. For this, the
-    /// frequency of each wave is rounded to a multiple of 1 / period, and lava cross-fades two copies of its
-    /// flow that are a period apart.
+    /// Period in seconds, (0, ∞), after which the sea's motion repeats: the frequency of each wave is rounded to a
+    /// multiple of 1 / period, and lava cross-fades two copies of its flow that are a period apart. `None`, the
+    /// default: the motion does not repeat.
     pub period: Option<f32>,
     /// Liquid, default water.
     pub liquid: Liquid,
@@ -54,8 +54,8 @@ pub enum Liquid {
     /// Transparent, with the sea's absorption and scattering.
     #[default]
     Water,
-    /// Opaque: a dark crust with glowing cracks. It casts no light, except for an estimate of its glow on
-    /// surfaces above, from height and slope alone, as if lava were below everywhere.
+    /// Opaque: a dark crust with glowing cracks. Its glow lights surfaces above its level by an estimate from their
+    /// height and slope alone, as if lava were below them everywhere; otherwise it casts no light.
     Lava {
         /// Radiance of the hottest parts of the lava's cracks, linear RGB in the unit of the output, [0, ∞).
         radiance: [f32; 3],

@@ -96,8 +96,8 @@ impl Mesh {
         mesh
     }
 
-    /// An upright cylinder with a hole along its axis; `centre` is at half its height. Its top is
-    /// cut along y = height / 2 + `slope` x.
+    /// An upright cylinder with a hole of radius `bore` along its axis; `centre` is at half its height. Its top is cut
+    /// along the plane y = height / 2 + `slope` x, where x and y are relative to `centre`.
     pub fn tube(
         centre: [f32; 3],
         [radius, bore]: [f32; 2],

@@ -57,8 +57,8 @@ pub struct SceneFrame<'a> {
     pub color: &'a Image,
     /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
     pub depth: &'a Image,
-    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL. The barrier after its last write
-    /// has made it visible to compute and fragment shaders.
+    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL. The caller has made its last write
+    /// visible to compute and fragment shaders by a barrier.
     pub environment: vk::ImageView,
     /// Cube map like `environment`, but without the sun, for lighting the scene; `None` if `environment` contains no
     /// sun.
@@ -123,7 +123,8 @@ impl SceneRenderer {
     /// Vulkan device that runs on the CPU. After an error the next `Gpu::bury` frees the objects.
     ///
     /// # Errors
-    /// A sun without direction, an invalid sea, no memory; Vulkan errors.
+    /// A sun without direction or with a negative colour; an invalid sea, haze, metre, cloud strength or splashed
+    /// rectangle; a texture that the device cannot hold; no memory; Vulkan errors.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
