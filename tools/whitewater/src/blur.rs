@@ -115,7 +115,7 @@ pub fn through(
 }
 
 /// Positions after `seconds`. Particles with a non-finite velocity stay where they are.
-fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
+pub fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
     let there = |(p, v): (&[f32; 3], &[f32; 3])| {
         let to = Vec3::from(*p) + seconds * Vec3::from(*v);
         if to.is_finite() { to.to_array() } else { *p }

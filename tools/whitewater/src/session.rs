@@ -308,7 +308,7 @@ impl<'a> Session<'a> {
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
             if let Some(whitewater) = whitewater {
-                self.times.step("upload", number, || whitewater.upload(headless))?;
+                self.times.step("upload", number, || whitewater.upload(headless, 0.0))?;
             }
         }
         self.step(number, source, particles, true)
@@ -551,12 +551,17 @@ impl<'a> Session<'a> {
         let mut layers = layers;
         let focus = self.args.focus.or_else(|| camera_file.distance()).unwrap_or(1.0);
         if let Some(blur) = Blur::of(self.args, self.look.photograph, focus) {
+            let source = self.look.whitewater.as_ref().filter(|_| blur.seconds > 0.0);
             let still = particles.velocities.is_none();
+            let still = still && !source.map_or(Ok(false), |source| source.moves(content))?;
             if still && self.args.shutter.is_some() && !std::mem::replace(&mut self.unmoved, true) {
                 self.times.say("--shutter blurs nothing: there are no velocities");
             }
             let shown = times.step("samples", number, || {
                 blur.draw(headless, particles, |headless, sample| {
+                    if let Some(source) = source {
+                        source.show(headless, content, sample.time)?;
+                    }
                     let view = blur::through(&camera, sample, focus, self.args.size);
                     let picture = liquids.draw(headless, &view, &background)?;
                     let mut drawn = layers::collect(headless, self.args.size, &[], &lens)?;
@@ -568,6 +573,9 @@ impl<'a> Session<'a> {
                 })
             })?;
             shown.put(&mut layers);
+            if let Some(source) = source {
+                source.show(headless, content, 0.0)?;
+            }
         }
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {

@@ -12,6 +12,7 @@ use whitewater::headless::{self, Headless};
 use whitewater::io::particles::{Particles, Parts};
 
 use crate::args::Whitewater;
+use crate::blur;
 use crate::bubbles::Random;
 use crate::failure::{Failure, Outcome};
 use crate::frames;
@@ -27,6 +28,28 @@ const PROBES: usize = 16;
 pub enum WhitewaterSource {
     Files(Files),
     Made(Box<Generate>),
+}
+
+impl WhitewaterSource {
+    /// Whether a frame's particles have velocities.
+    pub fn moves(&self, frame: u64) -> Outcome<bool> {
+        match self {
+            Self::Files(files) => Ok(files.open(frame)?.moves()),
+            Self::Made(_) => Ok(true),
+        }
+    }
+
+    /// Shows a frame's particles where they are `seconds` after the frame, or before it if negative: each is moved
+    /// along its velocity. They have been shown at the frame's time before.
+    pub fn show(&self, headless: &mut Headless, frame: u64, seconds: f32) -> Outcome<()> {
+        match self {
+            Self::Files(files) => {
+                let reading = files.open(frame)?;
+                if reading.moves() { reading.upload(headless, seconds) } else { Ok(()) }
+            }
+            Self::Made(_) => Ok(headless.move_generated(seconds)?),
+        }
+    }
 }
 
 /// Files of a sequence, by frame number.
@@ -344,16 +367,22 @@ impl Reading {
         self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
     }
 
-    /// Reads the frame's whitewater particles from its files and uploads them. They stay on the device until the next
-    /// upload.
-    pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
+    /// Whether the files have velocities.
+    pub fn moves(&self) -> bool {
+        self.files.iter().any(|(parts, _)| parts.about().velocities.is_some())
+    }
+
+    /// Reads the frame's whitewater particles from its files and uploads them, each moved along its velocity to its
+    /// place `seconds` after the frame. They stay on the device until the next upload.
+    pub fn upload(self, headless: &mut Headless, seconds: f32) -> Outcome<()> {
         let mut upload = headless.whitewater_parts(self.total())?;
         let mut first = 0;
         // Ids are used only if all files have them.
         let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
         for (parts, kind) in self.files {
             for part in parts {
-                let part = Part::new(part?, kind, (self.placing, self.life, self.drawn), first);
+                let seen = (self.placing, self.life, self.drawn);
+                let part = Part::new(part?, kind, seen, first, seconds);
                 first = first.wrapping_add(part.positions.len() as u32);
                 upload.push(&headless::Whitewater {
                     positions: &part.positions,
@@ -374,8 +403,12 @@ impl Part {
         kind: Option<u32>,
         (placing, life, drawn): (Placing, Option<f32>, Option<Drawn>),
         first: u32,
+        seconds: f32,
     ) -> Self {
         placing.place(&mut read);
+        if let Some(velocities) = &read.velocities {
+            read.positions = blur::moved(&read.positions, velocities, seconds);
+        }
         let count = read.positions.len();
         let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
         let age = |left: f32| match life {
@@ -569,7 +602,7 @@ mod tests {
         let radii = [0.01, 0.02, 0.03];
         let drawn = Drawn { radii, copies: 5, spacing: 0.1 };
         let of = |read: Particles, drawn| {
-            Part::new(read, None, (Placing::default(), Some(2.0), drawn), 0)
+            Part::new(read, None, (Placing::default(), Some(2.0), drawn), 0, 0.0)
         };
         let (one, all) = (of(read.clone(), None), of(read.clone(), Some(drawn)));
         assert_eq!((all.positions.len(), all.radii.as_ref().map(Vec::len)), (30, Some(30)));
@@ -606,11 +639,11 @@ mod tests {
         read.kinds = Some(vec![0, 0, 1, 1]);
         read.ids = Some(vec![6, 7, 8, 9]);
         let drawn = Some(Drawn { radii: [0.01; 3], copies: 64, spacing: 0.1 });
-        let still = Part::new(read.clone(), None, (Placing::default(), None, drawn), 0);
+        let still = Part::new(read.clone(), None, (Placing::default(), None, drawn), 0, 0.0);
         let steep = Vec3::new(1.0, 2.0, -2.0);
         read.velocities =
             Some([Vec3::new(2.0, 0.1, 2.0), steep, motion, Vec3::ZERO].map(Into::into).to_vec());
-        let moving = Part::new(read, None, (Placing::default(), None, drawn), 0);
+        let moving = Part::new(read, None, (Placing::default(), None, drawn), 0, 0.0);
         assert_eq!(moving.positions[..64], still.positions[..64], "floating foam");
         assert_eq!(moving.positions[192..], still.positions[192..], "spray at rest");
         // Foam at rest is flat, foam that flies is not.

@@ -302,6 +302,13 @@ fn whitewater_particles_are_made_of_the_water() {
     folder.run(&format!("{common} --whitewater made_%d.bgeo.gz --frames 4 -o c_%d.exr")).ok();
     let (made, read) = (amount("a_4.exr"), amount("c_4.exr"));
     assert!((made / read - 1.0).abs() < 1.0e-3, "{made} {read}");
+    // Motion blur moves emitted whitewater as it moves that of files.
+    let blurred = common.replace("--samples 1", "--samples 4 --shutter 0.05");
+    folder.run(&format!("{blurred} --whitewater generate -o moved_%d.exr --frames 4")).ok();
+    folder.run(&format!("{blurred} --whitewater made_%d.bgeo.gz -o file_%d.exr --frames 4")).ok();
+    let light = |name: &str| folder.picture(name).rgb().unwrap();
+    let off = apart(&light("moved_4.exr"), &light("file_4.exr"));
+    assert!(off < 1.0e-3, "{off}");
     // Existing pictures do not suffice if whitewater files are requested too.
     let keep = "--whitewater generate --write-whitewater kept_%d.ply -o b_%d.png --frames 4";
     let again = common.replace("--overwrite", "");
@@ -325,6 +332,41 @@ fn whitewater_particles_are_made_of_the_water() {
     folder.text("half.toml", "[whitewater]\nhalf_intensity_thickness = 3.0\nradius = 0.002\n");
     folder.run(&format!("{alone} --settings half.toml -o e.exr")).ok();
     assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
+}
+
+/// Sum of the absolute differences of two pictures, relative to the sum of the second.
+fn apart(a: &[[f32; 3]], b: &[[f32; 3]]) -> f32 {
+    let off: f32 = a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| (a - b).abs()).sum();
+    off / b.as_flattened().iter().sum::<f32>()
+}
+
+/// A particle before still water is as much wider as it moves during the exposure.
+#[test]
+fn whitewater_is_blurred_along_its_velocity() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("look.toml", LOOK);
+    folder.text("still.csv", "x,y,z,type,id\n0,0.35,0.5,0,10\n");
+    folder.text("fast.csv", "x,y,z,vx,vy,vz,type,id\n0,0.35,0.5,6,0,0,0,10\n");
+    let small = SMALL.replace("--samples 1", "--samples 16 --shutter 0.05 --shadows none");
+    let row = |name: &str, more: &str| -> (Vec<f32>, String) {
+        let common = format!("render a.ply {small} {FRONT} --settings look.toml");
+        let run = folder.run(&format!("{common} -o {name} {more}")).ok();
+        let light = folder.picture(name).rgb().unwrap();
+        (light[32 * 96..33 * 96].iter().map(|c| c[1]).collect(), run.stderr().into())
+    };
+    let (without, _) = row("none.exr", "");
+    let wide = |foam: &str| {
+        let (with, said) = row(&format!("{foam}.exr"), &format!("--whitewater {foam}.csv"));
+        let off = with.iter().zip(&without).filter(|(a, b)| (*a - *b).abs() > 0.05);
+        (off.count() as f32, said.contains("blurs nothing"))
+    };
+    let ((still, told), (fast, moved)) = (wide("still"), wide("fast"));
+    assert!(told && !moved, "the message says whether anything moves");
+    // From the first to the last of 16 moments in 0.05 s, at 6 m/s and 1.85 m from the eye, in pixels.
+    let way = 0.3 * 15.0 / 16.0 * 32.0 / (20.0_f32.to_radians().tan() * 1.85);
+    // Both ends are whole pixels.
+    assert!((fast - still - way).abs() <= 2.0, "{fast} pixels, {still} at rest, {way} of motion");
 }
 
 /// At equal rates a single frame has the whitewater that its water brings, in addition to the emission of a first
