@@ -49,7 +49,7 @@ of threads. To draw it:
 Exit codes: 0 success; 2 invalid command line; 5 an output cannot be written; 130 interrupted by
 Ctrl-C, finished frames are kept";
 
-/// Draws particle water without a window: particle caches in, OpenEXR and PNG out.
+/// Draws particle water without a window: particle caches in, OpenEXR, PNG and MP4 out.
 #[derive(Parser, Debug)]
 #[command(name = "whitewater", version, after_help = EXIT_CODES, arg_required_else_help = true)]
 pub struct Cli {
@@ -94,35 +94,36 @@ pub struct RenderArgs {
     /// 'fluid_%04d.bgeo', or one file that holds all frames
     ///
     /// In a pattern, %d stands for a frame number without leading zeros. These files can hold all frames: a table
-    /// with a column of times, XYZ, a LAMMPS dump, VTKHDF, XDMF, Tecplot with several zones, a NumPy array of shape
-    /// (frames, particles, 3) and a JSON list of frames. The frames in such a file are counted from 0. 'whitewater
-    /// info' lists what the files hold.
+    /// with a column of times, XYZ, a LAMMPS dump, VTKHDF, XDMF, Tecplot with several zones, a NumPy or HDF5 array of
+    /// shape (frames, particles, 3) and a JSON list of frames. The frames in such a file are counted from 0.
+    /// 'whitewater info' lists what the files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
-    /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles
+    /// Draw bubble foam: one, slope, box, or a .json file of blobs
     ///
     /// A blob is a ball of soap bubbles. 'one' is a single blob close up, 'slope' a thousand blobs that start to
     /// slide down a slope in frame 0 (60 frames per second), 'box' five thousand at rest; slope:N and box:N set the
-    /// number. A file holds {"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}; turn is a
-    /// quaternion. If the file also has "moves":true, its blobs fall and collide with --scene. Table [bubbles] of
-    /// --settings sets the appearance.
+    /// number. These three are drawn without particles; the blobs of a file can be drawn together with particles. A
+    /// file holds {"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}; turn is a quaternion. If the
+    /// file also has "moves":true, its blobs fall and collide with --scene, and cannot be combined with particles.
+    /// Table [bubbles] of --settings sets the appearance.
     #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
     pub bubbles: Option<Bubbles>,
     /// Draw shoreline and contact foam on a sea: archipelago, pool, lava, or a scene file
     ///
-    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A
-    /// scene of your own (.glb, .gltf, .obj, .json) is set in a sea. There are no water particles. Frames start at 1;
-    /// the built-in scenes repeat, 'pool' after 6 seconds, the others after 10. A mesh named 'strip', or the file
-    /// that the key strip in table [shore] names, is a strip of foam along the shore: its second texture coordinate
-    /// is 0 at the strip's seaward edge, 1 at the shore line, 2 at its inland edge. Tables [shore], [shoreline] and
-    /// [contact] of --settings set the appearance. Without --shore, particle_opacity = 1 in table [contact] draws
-    /// contact foam on the water of the particles.
+    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A scene
+    /// of your own (.glb, .gltf, .obj, .json) is set in a sea. There are no water particles. Frames start at 1; the
+    /// built-in scenes repeat, 'pool' after 6 seconds, the others after 10. A mesh whose name contains 'strip', or the
+    /// file that the key strip in table [shore] names, is a strip of foam along the shore: its second texture
+    /// coordinate is 0 at the strip's seaward edge, 1 at the shore line, 2 at its inland edge. Tables [shore],
+    /// [shoreline] and [contact] of --settings set the appearance. Without --shore, particle_opacity = 1 in table
+    /// [contact] draws contact foam on the water of the particles.
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
     pub shore: Option<Shore>,
     /// Height of the sea in a scene of your own, scene units
     #[arg(long, value_name = "Y", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true, requires = "shore")]
     pub level: f32,
-    /// Frames of the sequence to draw, as A-B or A
+    /// Frames of the sequence to draw, as A-B or A [default: all; without particles, one frame]
     ///
     /// Camera, radius and ground are found from the whole sequence, so that parts of it that are drawn separately
     /// match.
@@ -150,10 +151,12 @@ pub struct RenderArgs {
     /// particles in all.
     #[arg(long, value_name = "R|NAME", value_parser = radius)]
     pub radius: Option<Radius>,
-    /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
+    /// Frames per second of the sequence [default: from positions, velocities and ids; without these from the frames'
+    /// times; without times 30]
     ///
-    /// Consecutive files are one frame apart, whatever the numbers in their names. Three things depend on the rate:
-    /// how fast foam decays, the motion layer, and velocities that are estimated from the sequence.
+    /// A frame is the usual step between the numbers in the files' names: files numbered 0, 10, 20 are one frame apart.
+    /// The rate sets how fast foam forms and decays, how much whitewater 'generate' emits, how fast a film plays, the
+    /// motion layer, and velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Draw whitewater particles (spray, foam and bubbles) from files, or 'generate' them
@@ -161,15 +164,15 @@ pub struct RenderArgs {
     /// FILES are one file per frame, numbered like the inputs' frames, and named in the same way as the inputs. They
     /// hold types and lifetimes as SPlisHSPlasH's FoamGenerator writes them. KIND=FILES says that all particles in
     /// the files are of one kind: foam, spray or bubble. The option may be given several times. Size and opacity of
-    /// the particles follow from their number; keys of table [whitewater] set them instead (radius, or radii = [foam,
-    /// spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water traps air, where
-    /// waves break and where the water is fast (table [generate]). With crossfade = [NEAR, FAR] in table [bubbles],
+    /// the particles follow from their number; keys of table [whitewater] set them instead (half_intensity_thickness,
+    /// radius, and for files also radii = [foam, spray, bubbles]). 'generate' emits whitewater from fast water, where
+    /// it traps air or its waves break (table [generate]). With crossfade = [NEAR, FAR] in table [bubbles],
     /// foam is cross-faded to blobs of soap bubbles as its distance from the camera falls from FAR to NEAR metres.
     /// Surface foam and spray of the water particles are drawn as well; --surface-foam none and --spray none leave
     /// them out.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
-    /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
+    /// Write the whitewater of --whitewater generate to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
     ///
     /// A later run can read these files with --whitewater.
     #[arg(long, value_name = "FILE")]
@@ -229,8 +232,9 @@ pub struct RenderArgs {
     /// 'lab' a tiled hall with lamps. Studio and lab have their own light unless --environment or --sun sets one.
     /// Together with --scene, each of these four sets puts the scene on level ground in its surroundings and lights
     /// it. 'none' cannot be given together with --scene: only water, foam and spray are drawn, and the background
-    /// stays transparent. The picture's colours are then premultiplied by alpha. Alpha, channel A of the EXR and the
-    /// PNG, is the fraction of the background that water, foam and spray hide, as the mean of red, green and blue.
+    /// stays transparent. Alpha, channel A of the EXR and the PNG, is then the fraction of the background that water,
+    /// foam and spray hide, as the mean of red, green and blue. The colours of an EXR are premultiplied by alpha, those
+    /// of a PNG are not.
     #[arg(long, value_enum)]
     pub set: Option<SetArg>,
     #[command(flatten)]
@@ -261,7 +265,7 @@ pub struct DemoArgs {
 #[derive(Args, Debug)]
 pub struct DrawArgs {
     /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264); may be given
-    /// twice
+    /// several times
     ///
     /// In the output names of a sequence, the frame number replaces %04d; in a name without it, the number is put
     /// before the extension.
@@ -276,56 +280,59 @@ pub struct DrawArgs {
     /// Size in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (u32, u32),
-    /// Render at N times the width and height and average: 1, 2 or 4 [default: 2, or 1 if --samples applies]
+    /// Render at N times the width and height and average: 1, 2 or 4 [default: 2; 1 for pictures with motion blur or
+    /// depth of field]
     ///
     /// A larger render smooths outlines, drops and the refraction of fine ripples. --timings measures the frame at
     /// the larger size.
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
-    /// 1/200 for the PNG of an input of one frame; 0 for sequences, and with --turntable, --fluid, --set none or
-    /// --look thesis]
+    /// 1/200 for an input of one frame of which only PNG files are written; otherwise 0, and 0 with --turntable,
+    /// --fluid, --set none or --look thesis]
     ///
-    /// It uses the water's velocities. Whitewater and bubbles are not blurred.
+    /// Water particles, and whitewater particles with velocities, are moved along their velocities during the exposure.
+    /// The blobs of --bubbles, the scene and the camera stand still.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: lens diameter in scene units, 0 for none [default: where --shutter has one, 0.0015 of the
-    /// focus distance, at most 0.015]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: 0.0015 of the focus distance, at most 0.015,
+    /// in the cases in which --shutter is 1/200 by default; otherwise 0]
     ///
     /// A lens of 50 mm at f/2 has a diameter of 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
     pub aperture: Option<f32>,
-    /// Focus distance [default: to the camera's target]
+    /// Focus distance in scene units [default: the distance to the camera's target]
     #[arg(long, value_name = "DISTANCE", value_parser = positive)]
     pub focus: Option<f32>,
-    /// Number of renders that a picture with --shutter or --aperture averages, 1 to 256; the time for a picture is
-    /// proportional to it
+    /// Number of renders that a picture with motion blur or depth of field averages, 1 to 256; with 1 there is no blur.
+    /// The time for a picture is proportional to it
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
     pub samples: u32,
     /// Settings file in TOML
     ///
-    /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline],
-    /// [contact], [ellipsoids], [wavelets], [shadow], [noise] and [light]. The attribute 'settings' of each EXR file
-    /// holds all settings that it was drawn with. The key medium of [water] takes the names of --medium, or numbers
-    /// per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple
-    /// scattering, {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam]
-    /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
-    /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
+    /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline], [contact],
+    /// [ellipsoids], [wavelets], [shadow], [noise] and [light]. The attribute 'settings' of each EXR file holds all
+    /// settings that it was drawn with. The key medium of [water] takes the names of --medium, or numbers per metre:
+    /// {absorption = [r, g, b], reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple scattering,
+    /// {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam] also set which
+    /// water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach a particle
+    /// (default), or 'speed', the particle's own (default for demo, with --look thesis, and if threshold, air or a
     /// number for --surface-foam is given). With 'air' the speed is √(a² + e²): a is that of the approach, e is
     /// turbulence (0 to 1, default 0.17) times the particle's speed relative to the frame's mean velocity, or 0 where
-    /// neighbours move alike. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
-    /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
-    /// per second, y up); seed = 0.
+    /// neighbours move alike. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold (as
+    /// --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units per
+    /// second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// Liquid: clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source (the thesis')
-    /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres]
+    /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres and, without --scene,
+    /// in the set 'pool'; source with --look thesis]
     ///
     /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is green,
-    /// 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava' glows.
-    /// Absorption and scattering are measured values per metre, so a body of beer, honey or blood that is metres deep
-    /// looks nearly black or opaque. NAME:SHARE multiplies absorption and scattering by SHARE: beer:0.05 is a glass
-    /// of beer drawn at twenty times its size, milk:0.01 a cup of milk in a hundred cups of water.
+    /// 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava' glows. Absorption
+    /// and scattering are values per metre, most of them measured, so a body of beer, honey or blood that is metres
+    /// deep looks nearly black or opaque. NAME:SHARE multiplies absorption and scattering by SHARE: beer:0.05 is a
+    /// glass of beer drawn at twenty times its size, milk:0.01 a cup of milk in a hundred cups of water.
     #[arg(long, value_name = "NAME[:SHARE]")]
     pub medium: Option<MediumName>,
     /// Preset for everything that is not set explicitly: 'default', or 'thesis' (Bagar 2010)
@@ -354,8 +361,8 @@ pub struct DrawArgs {
     pub layers: String,
     /// PNG exposure: 'auto', or stops relative to it
     ///
-    /// The exposure 'auto' is found from the environment's light alone, so it is the same in all frames of a
-    /// sequence.
+    /// The exposure 'auto' follows from the environment's light and --set, not from the picture, so it is the same in
+    /// all frames of a sequence.
     #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
     /// PNG tone map: aces, agx, neutral or linear
@@ -367,7 +374,7 @@ pub struct DrawArgs {
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
+    /// Resolution of water thickness and surface foam: 0 full, 1 half, 2 quarter, 3 eighth
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
     pub thickness_level: u32,
     /// Number of water layers that are separated where one stands in front of another, such as a drop in front
@@ -408,11 +415,11 @@ pub struct DrawArgs {
     /// fixed:40 --surface-foam none.
     #[arg(long, value_enum)]
     pub noise: Option<NoiseArg>,
-    /// Shadows: all (scene, water and foam, with caustics), scene (the scene's shadows on foam and spray), or none
-    /// [default: all; scene with --look thesis]
+    /// Shadows: all (scene, water and foam cast them, with caustics), scene (the scene alone casts them, on foam, spray
+    /// and the sun's highlights), or none [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
     pub shadows: Option<ShadowArg>,
-    /// How particles are rasterized [default: the faster on the device]
+    /// How particles are rasterized: by a compute shader or as sprites (raster) [default: compute]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
     /// Iteration rule of the smoothing: source, constant-width, or fixed:N [default: constant-width; source
@@ -458,7 +465,7 @@ pub struct CameraArgs {
     /// Position of the camera [default: found from the particles]
     ///
     /// Particles that lie far from the origin, as in map coordinates, are moved near it. --eye and --target may be
-    /// given in the files' coordinates or in those of the moved particles.
+    /// given where the particles were (in metres, y up) or where they are after the move.
     #[arg(long, value_name = "X,Y,Z", requires = "target", value_parser = vector, allow_hyphen_values = true)]
     pub eye: Option<[f32; 3]>,
     /// Point the camera looks at
@@ -467,7 +474,7 @@ pub struct CameraArgs {
     /// Up direction in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = vector, allow_hyphen_values = true)]
     pub up: Option<[f32; 3]>,
-    /// Vertical field of view in degrees [default: 40]
+    /// Vertical field of view in degrees [default: 40 with --eye, otherwise 36; with --shore that of the scene]
     #[arg(long, value_name = "DEG", value_parser = degrees)]
     pub fov: Option<f32>,
 }
@@ -517,7 +524,8 @@ pub struct CompareArgs {
     pub a: PathBuf,
     /// Test: .exr, .png or .hdr
     pub b: PathBuf,
-    /// Also print the mean FLIP error of the displayed colour (0 to 1); --tolerance then applies to it
+    /// Print the mean FLIP error of the displayed colour (0 to 1) instead of the channels' RMSE; --tolerance then
+    /// applies to it
     #[arg(long)]
     pub flip: bool,
     /// Largest RMSE of any channel (or mean FLIP) that counts as equal
@@ -656,7 +664,7 @@ impl From<ToneArg> for Tone {
 pub enum ShadowArg {
     /// Scene, water and foam cast shadows on each other; with caustics.
     All,
-    /// The scene casts shadows on foam and spray.
+    /// The scene casts shadows on foam, spray and the sun's highlights.
     Scene,
     /// None.
     None,
