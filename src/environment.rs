@@ -6,6 +6,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use glam::Vec3;
 
+use crate::check;
 use crate::contract::{Config, HostImage};
 use crate::error::Error;
 use crate::frame::{check_up, level_axes};
@@ -64,7 +65,7 @@ impl Default for Sky {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {
-    /// Linear radiance. The format has to support linear filtering. The whole image is used: `rect` has no effect.
+    /// Linear radiance. The format has to support linear filtering. `rect` has to be the whole image.
     pub image: HostImage,
     /// The same picture without the sun. It is needed if `image` contains the sun that [`Light`](crate::Light)
     /// describes; `None`, the default, means that `image` does not. Diffuse light is gathered from the picture
@@ -132,6 +133,15 @@ pub(crate) fn axes(up: [f32; 3]) -> [Vec3; 3] {
     [east, up, north]
 }
 
+/// Validates an image that is used as a whole.
+fn whole(fields: [&'static str; 3], image: &HostImage) -> Result<(), Error> {
+    check::image(fields, image)?;
+    if image.rect == image.extent.into() {
+        return Ok(());
+    }
+    Err(Error::bad(fields[2], format!("expected the whole image, found {:?}", image.rect)))
+}
+
 impl EnvironmentSource {
     /// Validates the source.
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -143,6 +153,10 @@ impl EnvironmentSource {
                 check_up("Sky.up", sky.up)
             }
             Self::Equirectangular(own) => {
+                whole(check::fields!("Equirectangular.image"), &own.image)?;
+                if let Some(image) = &own.without_sun {
+                    whole(check::fields!("Equirectangular.without_sun"), image)?;
+                }
                 range("Equirectangular.scale", own.scale, 0.0, f32::MAX)?;
                 range("Equirectangular.turn", own.turn, -GREATEST, GREATEST)?;
                 check_up("Equirectangular.up", own.up)

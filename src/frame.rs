@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::gpu::shader;
 use crate::water::settings::{
     Amplitude, Bed, Compositing, Fresnel, GREATEST, Medium, Rule, SpraySettings,
-    SurfaceFoamSettings, WATER_INDEX, WaterSettings,
+    SurfaceFoamSettings, WATER_INDEX, WaterSettings, range,
 };
 use crate::water::wavelets::WAVELETS;
 use crate::whitewater::settings::{OcclusionReach, ShadowMixing, Submerged};
@@ -426,7 +426,7 @@ impl FrameUniforms {
             foam_aerated: with(foam_color(look.aerated_color, light), look.aeration),
             spray_color: spray_color(&frame.settings.spray, light),
             spray_cloud: spray_cloud(&frame.settings.spray, water),
-            spray_mist: spray_mist(&frame.settings.spray),
+            spray_mist: spray_mist(&frame.settings.spray, config),
             spray_near: [frame.settings.spray.max_angle, 0.0, 0.0, 0.0],
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.clip() * to_world)
@@ -631,8 +631,10 @@ fn spray_cloud(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
     [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, spray.glints]
 }
 
-fn spray_mist(spray: &SpraySettings) -> [f32; 4] {
-    [spray.clumps, spray.shade, spray.scattering, spray.relief]
+fn spray_mist(spray: &SpraySettings, config: &Config) -> [f32; 4] {
+    // Without spray, particles that are too few for water are not drawn, so they cast no shadow.
+    let shade = if config.spray { spray.shade } else { 0.0 };
+    [spray.clumps, shade, spray.scattering, spray.relief]
 }
 
 fn spray_color(spray: &SpraySettings, light: &Light) -> [f32; 4] {
@@ -806,17 +808,23 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     let numbers: &[f32] = match &water.medium {
         Medium::Physical { absorption: a, scattering: s } => &[*a, *s].concat(),
         Medium::Turbid { absorption: a, scattering: s, emission: e } => &[*a, *s, *e].concat(),
-        Medium::Source { base, falloff } => &[&base[..], &falloff[..]].concat(),
+        Medium::Source { base, falloff } => {
+            for value in base {
+                range("Settings.water.medium.base", *value, 0.0, 1.0)?;
+            }
+            falloff
+        }
     };
     for value in numbers {
         at_least("Settings.water.medium", *value, 0.0)?;
     }
-    let fresnel = match water.fresnel {
-        Fresnel::Schlick { f0 } => [f0, 0.0, 0.0],
-        Fresnel::Source { bias, scale, power } => [bias, scale, power],
-    };
-    for value in fresnel {
-        at_least("Settings.water.fresnel", value, 0.0)?;
+    match water.fresnel {
+        Fresnel::Schlick { f0 } => range("Settings.water.fresnel.f0", f0, 0.0, 1.0)?,
+        Fresnel::Source { bias, scale, power } => {
+            for value in [bias, scale, power] {
+                at_least("Settings.water.fresnel", value, 0.0)?;
+            }
+        }
     }
     let direction = glam::Vec3::from(light.direction);
     if !direction.is_finite() || direction == glam::Vec3::ZERO {

@@ -263,7 +263,7 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
 }
 
 // Natural rock: soft light and dark spots, strata, clefts, and lichen on surfaces that face up. It is darker up to
-// some height above the sea, where waves wet it; `height` is that above the sea.
+// some height above the sea, where waves wet it. `height`: metres above the sea.
 Surface rock(vec3 p, vec3 n, float width, float height) {
     float cloud = octaves(p, 0.45, 4, width);
     float cleft = octaves(p + 3.0 * cloud, 1.1, 3, width);
@@ -536,11 +536,11 @@ void main() {
     } else if (PATTERN == PAVING) {
         s = paving(q, footprint, p, width);
     } else if (PATTERN == ISLAND) {
-        s = island(p, n, width, shown_at.y - scene.sea.x);
+        s = island(p, n, width, scene.air.y * (shown_at.y - scene.sea.x));
     } else if (PATTERN == LEAVES) {
         s = leaves(p, n, width);
     } else if (PATTERN == ROCK) {
-        s = rock(p, n, width, position.y - scene.sea.x);
+        s = rock(p, n, width, scene.air.y * (position.y - scene.sea.x));
     } else if (PATTERN == FOLIAGE) {
         s = foliage(p, n, width);
     } else if (PATTERN == LAWN) {

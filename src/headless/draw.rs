@@ -183,7 +183,8 @@ impl Headless {
         self.layers = recorded.layers;
         self.counts = recorded.diagnostics.counts;
         self.levels = recorded.diagnostics.levels;
-        self.active_samples = recorded.diagnostics.active_samples;
+        // Where the CPU reads the queries, no command copies their results.
+        self.active_samples = recorded.diagnostics.active_samples.filter(|_| !read_back);
         self.bubble_words = recorded.diagnostics.bubbles;
         Ok(last)
     }

@@ -133,7 +133,7 @@ impl Headless {
 
     /// Numbers of samples that the occlusion queries of the smoothing counted in the last frame, in iterations
     /// 5, 10, …: 0 for a block of five iterations that was skipped. The last block is not counted. Empty if the
-    /// smoothing uses no queries.
+    /// smoothing uses no queries, and after [`render_with_read_back`](Self::render_with_read_back).
     ///
     /// # Errors
     /// No memory; Vulkan errors.

@@ -264,7 +264,10 @@ fn surfaces_go_by_the_metre() {
     under_a_grey_sky(&mut headless);
     let scene = |size: f32, metre: Option<f32>, pattern: Pattern| {
         let material = Material { pattern, ..matt() };
-        let mesh = Mesh::plane([0.0; 3], [3.0 * size, 3.0 * size], material);
+        // Tilted, because an island's ground depends on its height.
+        let turn = glam::Quat::from_rotation_x(0.2).to_array();
+        let half = [3.0, 0.1, 3.0].map(|half| half * size);
+        let mesh = Mesh::cuboid([0.0; 3], half, turn, material);
         Scene { meshes: vec![mesh], metre, ..Scene::default() }
     };
     let eye = Vec3::new(0.3, 2.0, 1.5);
@@ -274,6 +277,7 @@ fn surfaces_go_by_the_metre() {
             Pattern::Lawn { stripe: 0.5 * size },
             Pattern::Ripples { length: 0.2 * size },
             Pattern::Foliage,
+            Pattern::Island { beach: 0.2 * size },
         ]
     };
     for (small, large) in patterns(1.0).into_iter().zip(patterns(4.0)) {

@@ -640,6 +640,41 @@ fn an_abandoned_first_step_leaves_nothing() {
     assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
 }
 
+/// Whether a reset, a saved or a restored state was recorded before it, an abandoned step or a discarded command buffer
+/// leaves neither undefined memory nor an empty state.
+#[test]
+fn states_outlive_what_is_discarded() {
+    let gpu = Gpu::shared();
+    let settings = settings();
+    let mut before = Making::new(&gpu, &config());
+    let size = before.generator().size();
+    before.restore(&vec![0x5a; size as usize]);
+    drop(before);
+    let mut making = Making::new(&gpu, &config());
+    let to = making.stub.data(&vec![0; size as usize], vk::BufferUsageFlags::TRANSFER_DST);
+    making.stub.wait(0);
+    let cmd = making.stub.begin(0);
+    let generator = making.generator.as_mut().expect("only drop takes it");
+    // SAFETY: cmd is recording and never submitted.
+    unsafe {
+        generator.record_reset(cmd);
+        generator.record_save(cmd, to.buffer, 0);
+    }
+    making.steps = 1;
+    assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
+
+    let mut other = Making::new(&gpu, &config());
+    other.step(&sea(0), &settings, 0.03, 0);
+    let alive = other.step(&sea(1), &settings, 0.03, 1).living().len();
+    let saved = other.save();
+    let mut making = Making::new(&gpu, &config());
+    making.step(&sea(0), &settings, 0.03, 0);
+    making.restore(&saved);
+    making.generator().abandon(Slot(0));
+    let left = making.step(&Fluid::default(), &settings, 1.0e-4, 2).living().len();
+    assert!(left > 0 && left <= alive, "{left} of {alive}");
+}
+
 #[test]
 fn mistakes_are_named() {
     let gpu = Gpu::shared();

@@ -76,6 +76,8 @@ fn the_hosts_look_gives_the_same_picture() {
             let surface = headless.layer("water.surface").expect("read").expect("kept");
             let color = headless.color().expect("read");
             drawn.push((surface, color));
+            let samples = headless.active_samples().expect("read");
+            assert_eq!(samples.is_empty(), read_back, "the host has read them itself");
         });
     }
     assert!(drawn[0].0 == drawn[1].0, "other surfaces");

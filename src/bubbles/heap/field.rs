@@ -68,7 +68,7 @@ impl DistanceField {
         let low = corners().reduce(Vec3::min).unwrap_or_default() - margin;
         let high = corners().reduce(Vec3::max).unwrap_or_default() + margin;
         let span = ((high - low) / edge).ceil();
-        if span.max_element() > 1023.0 {
+        if span.max_element() > 1022.0 {
             return bad("more than 1024 points along an axis; choose a longer edge");
         }
         let points = span.to_array().map(|n| n as u32 + 2);

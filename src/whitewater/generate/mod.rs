@@ -141,7 +141,6 @@ impl Generator {
     /// # Safety
     /// The conditions of [`record_step`](Self::record_step) hold.
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
-        self.fresh = false;
         self.passes.record_clear(&self.gpu, cmd);
     }
 
@@ -207,7 +206,8 @@ impl Generator {
     /// The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4)
     /// on, and no pending access. The conditions of [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
-        if std::mem::take(&mut self.fresh) {
+        // `fresh` stays, so that the next step clears the state even if `cmd` is discarded.
+        if self.fresh {
             self.passes.record_clear(&self.gpu, cmd);
         }
         self.passes.record_copy(&self.gpu, cmd, (to, offset), true);
@@ -220,7 +220,8 @@ impl Generator {
     /// The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
     /// and no pending writes. The conditions of [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
-        self.fresh = false;
+        // A step before is no longer one to take back.
+        (self.fresh, self.last) = (false, None);
         self.passes.record_copy(&self.gpu, cmd, (from, offset), false);
     }
 

@@ -134,8 +134,7 @@ impl GeneratorSettings {
     /// # Errors
     /// [`Error::BadInput`] with the field that is out of its documented range.
     pub fn check(&self) -> Result<(), Error> {
-        let most = 1.0e18;
-        range("GeneratorSettings.spacing", self.spacing, 1.0e-18, 1.0e18)?;
+        range("GeneratorSettings.spacing", self.spacing, 1.0e-18, GREATEST)?;
         for (field, limits) in [
             ("GeneratorSettings.trapped_air", self.trapped_air),
             ("GeneratorSettings.wave_crest", self.wave_crest),
@@ -149,8 +148,8 @@ impl GeneratorSettings {
                 return Err(Error::bad(field, why));
             }
         }
-        range("GeneratorSettings.trapped_air_rate", self.trapped_air_rate, 0.0, most)?;
-        range("GeneratorSettings.wave_crest_rate", self.wave_crest_rate, 0.0, most)?;
+        range("GeneratorSettings.trapped_air_rate", self.trapped_air_rate, 0.0, GREATEST)?;
+        range("GeneratorSettings.wave_crest_rate", self.wave_crest_rate, 0.0, GREATEST)?;
         let (short, long) = (self.min_lifetime, self.max_lifetime);
         if !(short > 0.0 && long >= short && long <= GREATEST) {
             let why = format!(

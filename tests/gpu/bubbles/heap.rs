@@ -374,6 +374,15 @@ fn a_mesh_is_solid_by_its_field() {
     assert!(end.place.y < 0.0 && end.place.x > 0.3, "it has not rolled off: {end:?}");
 }
 
+/// A mesh has at most 1024 grid points along an axis: 1022 edges from its start to its end, and one more point beyond it.
+#[test]
+fn a_mesh_has_as_many_points_as_a_field_may_have() {
+    let long = |n: f32| [[[0.0; 3], [n, 0.0, 0.0], [0.0, 0.0, 0.5]]];
+    let field = DistanceField::of_mesh(&long(1022.0), 1.0, 0.0).expect("a field");
+    assert_eq!(field.points[0], 1024);
+    assert!(DistanceField::of_mesh(&long(1023.0), 1.0, 0.0).is_err());
+}
+
 #[test]
 fn what_is_no_blob_and_none_do_nothing() {
     let gpu = Gpu::shared();

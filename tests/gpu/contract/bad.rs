@@ -4,8 +4,8 @@
 use ash::vk;
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{
-    Context, Count, Error, Frame, LightVolume, Packets, Previous, Recorded, Settings, Shadow, Slot,
-    Stream,
+    Context, Count, EnvironmentSource, Equirectangular, Error, Frame, LightVolume, Packets,
+    Previous, Recorded, Settings, Shadow, Slot, Stream,
 };
 
 use crate::support::device::Gpu;
@@ -137,8 +137,15 @@ fn spoils() -> Vec<Spoil> {
                 scattering: [0.0; 3],
             };
         }),
-        ("fresnel", "Settings.water.fresnel", |g| {
+        ("fresnel", "Settings.water.fresnel.f0", |g| {
             g.settings.water.fresnel = whitewater::water::Fresnel::Schlick { f0: f32::NAN };
+        }),
+        ("reflectance", "Settings.water.fresnel.f0", |g| {
+            g.settings.water.fresnel = whitewater::water::Fresnel::Schlick { f0: 1.1 };
+        }),
+        ("base", "Settings.water.medium.base", |g| {
+            let (base, falloff) = ([0.1, 1.1, 0.3], [1.0; 4]);
+            g.settings.water.medium = whitewater::water::Medium::Source { base, falloff };
         }),
         ("fresnel power", "Settings.water.fresnel", |g| {
             g.settings.water.fresnel =
@@ -473,4 +480,37 @@ fn bad_configurations_are_errors() {
     let shot = water(size, Lens::Standard);
     let expected = Rig::new(&gpu, &good).draw(&shot);
     compare::same_color("after-bad-resize", &rig.draw(&shot).output, &expected.output);
+}
+
+/// A bad image of the environment is named before any command.
+#[test]
+fn bad_environments_are_errors() {
+    let gpu = Gpu::shared();
+    let size = extent(8, 4);
+    let mut rig = Rig::new(&gpu, &config(extent(16, 16)));
+    let map = rig.map(size, &[[0.5; 4]; 32]);
+    let good = map.host_image();
+    let part = vk::Rect2D { extent: extent(4, 4), ..Default::default() };
+    let mut unknown = good;
+    unknown.before.layout = vk::ImageLayout::UNDEFINED;
+    let of = |image, without_sun| {
+        let mut map = Equirectangular::new(image);
+        map.without_sun = without_sun;
+        map
+    };
+    let cases = [
+        (of(unknown, None), "Equirectangular.image.before"),
+        (of(good.with_rect(part), None), "Equirectangular.image.rect"),
+        (of(good, Some(unknown)), "Equirectangular.without_sun.before"),
+        (of(good, Some(good.with_rect(part))), "Equirectangular.without_sun.rect"),
+    ];
+    for (source, named) in cases {
+        let cmd = rig.stub.begin(0);
+        let source = EnvironmentSource::Equirectangular(source);
+        // SAFETY: cmd is recording; it is never submitted.
+        let result = unsafe { rig.renderer().record_environment(cmd, Slot(0), &source) };
+        rig.stub.throw_away(0);
+        let Err(Error::BadInput { field, .. }) = result else { panic!("{named}: {result:?}") };
+        assert_eq!(field, named);
+    }
 }

@@ -72,7 +72,8 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         texels: config.light_map_size.expect("maps") as usize,
         spacing: f64::from(water.spacing),
         densities: [density(first), density(second), density(third)],
-        shade: f64::from(shot.settings.spray.shade),
+        // What is not drawn casts no shadow.
+        shade: if config.spray { f64::from(shot.settings.spray.shade) } else { 0.0 },
         several: shot.settings.spray.droplets > 1,
         spread: 0.6 * f64::from(shot.settings.spray.scatter_radius * shot.settings.water.spacing),
         width: f64::from(water.smoothing_width),
