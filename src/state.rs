@@ -46,17 +46,18 @@ pub struct SurfaceFoamState {
     slots: Vec<StateSlot>,
     /// Whether the odd table holds the state.
     odd: bool,
-    /// Whether nothing was recorded yet, so that the tables are undefined.
+    /// Whether the tables may still be undefined: neither a step nor a restoration was recorded.
     fresh: bool,
-    /// Slot of the step recorded last, and whether that step was the first of all. `None` if there is no step that
-    /// could be abandoned.
+    /// Slot of the step recorded last, and the value of `fresh` before it, which `abandon` brings back. `None` if there
+    /// is no step to take back: none was recorded since the last reset, restoration or `abandon`, or the last one
+    /// failed.
     last: Option<(Slot, bool)>,
 }
 
 impl SurfaceFoamState {
-    /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for its phase
-    /// (water, foam or a transition), and 8 for foam amount and age. It starts without foam; the first step needs no
-    /// [`record_reset`](Self::record_reset).
+    /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for the two
+    /// tables of phases (water, foam or a transition), and 8 more for foam amount and age. It starts without foam;
+    /// the first step needs no [`record_reset`](Self::record_reset).
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -136,7 +137,7 @@ impl SurfaceFoamState {
     /// # Safety
     /// Those of [`record_step`](Self::record_step).
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
-        (self.fresh, self.last) = (false, None);
+        self.last = None;
         self.classify.record_clear(&self.gpu, cmd, self.odd);
     }
 
@@ -153,7 +154,8 @@ impl SurfaceFoamState {
     /// The buffer has transfer-destination usage, at least [`size`](Self::size) bytes after `offset` (a multiple of
     /// 4), and no pending access. The conditions of [`record_step`](Self::record_step) hold too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
-        if std::mem::take(&mut self.fresh) {
+        // `fresh` stays, so that the next step clears the state even if `cmd` is discarded.
+        if self.fresh {
             self.classify.record_clear(&self.gpu, cmd, self.odd);
         }
         self.classify.record_copy(&self.gpu, cmd, self.odd, (to, offset), true);

@@ -401,11 +401,17 @@ fn an_abandoned_first_step_leaves_an_empty_state() {
     let mut body = Body::new(&gpu, config);
     let mut sea = Sea::new(100);
     let cloud = Cloud::new(&body.stub, sea.step());
+    let to = body.stub.data(&vec![0; size], vk::BufferUsageFlags::TRANSFER_DST);
     body.stub.wait(0);
     let cmd = body.stub.begin(0);
     let state = body.state.as_mut().expect("only drop takes it");
     // SAFETY: cmd is recording and never submitted.
-    unsafe { state.record_step(cmd, &cloud.step(&settings, 0.1)) }.expect("a step");
+    unsafe {
+        // Nor does a reset or a save that is never executed.
+        state.record_reset(cmd);
+        state.record_save(cmd, to.buffer, 0);
+        state.record_step(cmd, &cloud.step(&settings, 0.1)).expect("a step");
+    }
     state.abandon(Slot(0));
     state.abandon(Slot(0));
     assert!(body.save().iter().all(|byte| *byte == 0), "rows of another's");

@@ -42,9 +42,11 @@ pub struct Generator {
     config: GeneratorConfig,
     passes: Passes,
     slots: Vec<GeneratorSlot>,
-    /// Whether nothing was recorded yet, so that the buffers are uninitialized.
+    /// Whether the buffers may still be undefined: neither a step nor a restoration was recorded.
     fresh: bool,
-    /// The last step, until it is abandoned: its slot, and whether it was the first.
+    /// Slot of the step recorded last, and the value of `fresh` before it, which `abandon` brings back. `None` if there
+    /// is no step to take back: none was recorded since the last reset, restoration or `abandon`, or the last one
+    /// failed.
     last: Option<(Slot, bool)>,
 }
 
@@ -141,6 +143,7 @@ impl Generator {
     /// # Safety
     /// The conditions of [`record_step`](Self::record_step) hold.
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
+        self.last = None;
         self.passes.record_clear(&self.gpu, cmd);
     }
 
@@ -184,11 +187,13 @@ impl Generator {
     }
 
     /// Six `u32`. The first is the number of slots in the streams of [`particles`](Self::particles) that have been
-    /// used. The next four are for the last step: its fluid particles; those of them with valid position and velocity;
-    /// slots that were free before its emission, among the used ones; particles that it emitted, including those that
-    /// found no slot. The sixth is the number of particles that found no slot, in all steps. The first and the sixth
-    /// count since the last reset or snapshot. The buffer has transfer-source usage. A compute shader writes it, as it
-    /// does the potentials; after a step, compute shaders and copies may read both.
+    /// used. The next four are for the last step: its fluid particles; those of them with valid position and
+    /// velocity; slots that were free before its emission, among the used ones; particles that it emitted, including
+    /// those that found no slot. The sixth is the number of particles that found no slot, in all steps. The first and
+    /// the sixth count from the last [`record_reset`](Self::record_reset) or
+    /// [`record_snapshot`](Self::record_snapshot) on; [`record_restore`](Self::record_restore) brings back the saved
+    /// ones. The buffer has transfer-source usage. A compute shader writes it, as it does the potentials; after a
+    /// step, compute shaders and copies may read both.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
