@@ -63,7 +63,7 @@ pub fn errors(tool: &Tool, docs: &Path) -> Outcome<()> {
         let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
         Ok(channel(&tool.bubbles("one", 1, &settings)?.layers, "bubbles.Z")?.to_vec())
     };
-    let exact = depths("map = 512\nsteps = 64")?;
+    let exact = depths("map_size = 512\nsteps = 64")?;
     let there = |z: f32| z < EMPTY;
     let off = |look: &str| -> Outcome<f64> {
         let (mut bad, mut all) = (0, 0);

@@ -49,7 +49,7 @@ of threads. To draw it:
 Exit codes: 0 success; 2 invalid command line; 5 an output cannot be written; 130 interrupted by
 Ctrl-C, finished frames are kept";
 
-/// Draws particle water without a window: particle caches in, OpenEXR, PNG and MP4 out.
+/// Draws water from particle files, without a window. It writes pictures (OpenEXR, PNG) and films (MP4).
 #[derive(Parser, Debug)]
 #[command(name = "whitewater", version, after_help = EXIT_CODES, arg_required_else_help = true)]
 pub struct Cli {
@@ -131,7 +131,8 @@ pub struct RenderArgs {
     pub frames: Option<String>,
     /// Draw every Nth of the selected frames
     ///
-    /// The foam simulation still steps through all frames.
+    /// The foam simulation still steps through every frame of the sequence, also through those before the first one
+    /// of --frames.
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroUsize,
     /// Orbit the camera once around its target, in this many frames or seconds of the film (4s) [default: 96

@@ -647,7 +647,11 @@ impl<'a> Session<'a> {
         source: &str,
         camera: &CameraFile,
     ) -> Outcome<Layers> {
-        let found = Found { foam: self.look.foam.as_ref(), generate: self.making.as_ref() };
+        let found = Found {
+            foam: self.look.foam.as_ref(),
+            generate: self.making.as_ref(),
+            matte: self.look.matte,
+        };
         let settings = self.look.file.all(&self.look.settings, found).text();
         let settings = settings.map_err(Failure::input)?;
         let mut note = |name: &str, value: String| {

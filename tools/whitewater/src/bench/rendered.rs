@@ -1,4 +1,5 @@
-//! The bench's pool as `render` draws a cache by default: with spray, surface foam, shadows, caustics and a basin.
+//! The bench's pool as `render` draws a cache by default, without ripples: with spray, surface foam, shadows, caustics and
+//! a basin.
 
 use glam::Vec3;
 use whitewater::headless::Headless;

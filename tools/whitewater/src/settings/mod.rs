@@ -64,6 +64,8 @@ pub struct Found<'a> {
     pub foam: Option<&'a WeberSettings>,
     /// Settings of the whitewater emission, and the max number of particles.
     pub generate: Option<&'a (GeneratorSettings, u32)>,
+    /// Whether only the water was drawn, on a transparent background.
+    pub matte: bool,
 }
 
 impl SettingsFile {
@@ -164,7 +166,7 @@ impl SettingsFile {
         } = settings;
         Self {
             look: self.look,
-            water: self.water.all(water, self.is_thesis()),
+            water: self.water.all(water, self.is_thesis(), found.matte),
             ellipsoids: water::EllipsoidTable::of(&water.ellipsoids),
             wavelets: water::WaveletTable::of(&water.wavelets),
             surface_foam: self.surface_foam.all(surface_foam, found.foam),

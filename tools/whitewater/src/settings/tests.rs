@@ -142,7 +142,7 @@ fn everything() -> SettingsFile {
     file.apply(&mut settings);
     let limits = PotentialRange { min: 1.0, max: 2.0 };
     let generate = (GeneratorSettings::new(0.1, [limits; 3], 3.0), 1000);
-    file.all(&settings, Found { foam: None, generate: Some(&generate) })
+    file.all(&settings, Found { generate: Some(&generate), ..Found::default() })
 }
 
 #[test]
@@ -211,7 +211,7 @@ fn every_value_arrives_and_is_written() {
         file.generate.apply(&mut generate.0);
         generate.1 = file.generate.max_particles.unwrap();
         let formation = file.surface_foam.formation(&settings.water);
-        let found = Found { foam: Some(&formation), generate: Some(&generate) };
+        let found = Found { foam: Some(&formation), generate: Some(&generate), matte: false };
         let back: toml::Table = file.all(&settings, found).text().unwrap().parse().unwrap();
         let back = toml::Value::Table(back);
         assert!(same(&back, &variant), "{}\nis not\n{text}", toml::to_string(&back).unwrap());

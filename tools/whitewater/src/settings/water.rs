@@ -200,12 +200,12 @@ impl WaterTable {
         self.kernels.is_some()
     }
 
-    /// The complete table, with this table's configuration of passes.
-    pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
+    /// The complete table, with this table's configuration of passes. `matte`: only the water was drawn.
+    pub fn all(&self, water: &WaterSettings, thesis: bool, matte: bool) -> Self {
         Self {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
-            exit: Some(self.exit(thesis).into()),
+            exit: Some(self.exit(thesis || matte).into()),
             kernels: Some(self.kernels(thesis).into()),
             ..Self::of(water)
         }

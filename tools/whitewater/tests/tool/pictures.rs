@@ -582,6 +582,10 @@ fn a_pictures_settings_draw_it_again() {
     // The look differs from the default.
     folder.run(&format!("render a.csv -o c.exr {SMALL}")).ok();
     folder.run("compare a.exr c.exr --tolerance 0.001").fails(1, &["RMSE"]);
+    // Its settings are those of a picture of the water alone, also where they follow from --set none.
+    folder.text("alone.toml", &settings("c.exr"));
+    folder.run(&format!("render a.csv -o d.exr {SMALL} --settings alone.toml")).ok();
+    folder.run("compare c.exr d.exr --tolerance 0").ok();
 }
 
 /// Compares the demo with reference pictures by mean FLIP, with the tone curve that keeps dim colours. Drivers differ
