@@ -192,8 +192,8 @@ pub struct Config {
     /// four if none does), and foam only between texels whose foam the scene does not hide.
     pub thickness_level: u32,
     /// How the particles' depth is rasterized. With `None`: [`Splat::Compute`] on every device. With
-    /// [`Splat::Raster`] the pass `depth` took 0.9 to 3.9 times as long on lavapipe (a CPU driver; the more particles,
-    /// the longer), and three times as long on an H200.
+    /// [`Splat::Raster`] the pass `depth` took 0.9 to 3.9 times as long as with [`Splat::Compute`] on lavapipe (a CPU
+    /// driver); this ratio grows with the number of particles. On an H200 it took three times as long.
     #[cfg(feature = "diagnostics")]
     pub depth_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
@@ -995,8 +995,9 @@ impl<'a> GeneratorStep<'a> {
     }
 }
 
-/// The camera. The projection is the host's own, as used with a viewport of positive height whose row 0 is the top of
-/// the image. A host that flips with a negative viewport height negates row 1 of its projection first.
+/// The camera of a frame. The projection is the host's own for a viewport of positive height: y in clip space points
+/// down in the image. A host whose viewport has a negative height first changes the sign of the second row (that of
+/// y) of its projection matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// World to eye space, four columns.
@@ -1077,7 +1078,8 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    /// A shadow map with its view-projection matrix, or a mask, for which the matrix is not read. The bias is 0.
+    /// A shadow map with the light's view-projection matrix, or, with [`Shadows::Mask`](crate::water::Shadows::Mask),
+    /// a mask over the view, for which the matrix is not read. The bias is 0.
     pub fn new(image: HostImage, view_projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { image, view_projection: view_projection.into(), bias: 0.0 }
     }
@@ -1145,8 +1147,9 @@ pub struct Frame<'a> {
     pub particles: Particles,
     /// Whitewater particles, with [`Config::whitewater`]. `None`: there are none.
     pub whitewater: Option<WhitewaterParticles>,
-    /// Blobs of bubble foam, with [`Config::bubbles`]. With `None` the host hands in no blobs. It has to be `None`
-    /// with [`BubbleConfig::crossfade`], which makes the blobs from whitewater foam.
+    /// Blobs of bubble foam, with [`Config::bubbles`]. With `None` the host hands in no blobs in this frame. It has
+    /// to be `None` if [`BubbleConfig::crossfade`] is set, because then the renderer itself makes the blobs from
+    /// whitewater foam.
     pub bubbles: Option<Blobs>,
     /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
     pub shore: Option<Shore>,

@@ -34,16 +34,17 @@ pub struct Diagnostics {
     pub sheets: Option<vk::Buffer>,
     /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. These hold the
     /// position where the particle is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to
-    /// its ellipsoid (xx, yy, zz, yz, xz, xy, each a signed normalised 16-bit number, times 4); the matrix of its
-    /// ellipsoid as spray, in the same form; and the sum of the weights of its neighbours (f32). In films one
-    /// particle thick the sum is raised towards 64, and for particles outside of the grid it is 64. The buffer has
-    /// transfer-source usage. In `record` compute shaders write it and then read it.
+    /// its ellipsoid (xx, yy, zz, yz, xz, xy, each stored as a quarter of its value in a signed normalised 16-bit
+    /// number); the matrix of its ellipsoid as spray, in the same form; and the sum of the weights of its neighbours
+    /// (f32). In thin sheets of water, one particle thick, the sum is raised towards 64, and for particles outside of
+    /// the grid it is
+    /// 64. The buffer has transfer-source usage. In `record` compute shaders write it and then read it.
     pub shapes: Option<vk::Buffer>,
     /// With [`Config::bubbles`]: a buffer, and its number of `u32` per pixel of the frame; the pixels follow row by
-    /// row. A pixel's words are one for each of its layers of blobs, front to back: 256 times the blob's index in the
-    /// streams plus the index of the bubble in the blob, or 0xffff_ffff for none. The pixel's last word holds the
-    /// bits of the maximum opacity of its blobs (f32). The buffer has transfer-source usage. In `record` compute
-    /// shaders write it and then read it.
+    /// row. A pixel has one word for each layer of blobs, front to back, and one more. The word of a layer is 256
+    /// times the index of the blob in the streams plus the index of the bubble in this blob, or 0xffff_ffff without a
+    /// blob. The last word holds the bits of an f32: the greatest opacity of a core among the blobs found at this
+    /// pixel. The buffer has transfer-source usage. In `record` compute shaders write it and then read it.
     pub bubbles: Option<(vk::Buffer, u32)>,
     /// With [`Config::bubbles`]: a buffer of five `u32`, statistics of the blobs: least and greatest eye depth at
     /// which a blob begins (the bits of two f32), number of blobs on the screen, number of invalid ones that were

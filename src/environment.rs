@@ -181,8 +181,8 @@ pub struct Environment {
     pub cube: Image,
     faces: Owned<vk::ImageView>,
     /// The cube without the sun, and a view of its faces, for [`Irradiance::Sampled`]. Only its first mip is sampled.
-    /// It has the others because SwiftShader fills the seams of a cube map (the texels around each face, which filters
-    /// read at its edges) when mips are blitted, but not when a compute shader writes the cube.
+    /// The cube has further mips only for SwiftShader: it fills the seams of a cube map (the texels around each face,
+    /// which filters read at its edges) when mips are blitted, but not when a compute shader writes the cube.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
     /// Whether the host gave a separate picture without the sun for the environment that was recorded last.
     apart: bool,

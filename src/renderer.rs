@@ -125,10 +125,9 @@ impl Renderer {
     /// true. It removes the environment, so call [`record_environment`](Self::record_environment) after it. It also
     /// replaces the host's foam texture ([`record_foam_texture`](Self::record_foam_texture)) by the built-in one.
     ///
-    /// # Safety
-    /// `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before any frame.
-    /// The set-up belongs to no slot: its GPU work has to be complete before `resize` and `reconfigure`, which is
-    /// certain once a frame that was recorded after it has finished.
+    /// # Safety `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before
+    /// every frame that is recorded after the set-up. The set-up belongs to no slot: its GPU work has to be complete
+    /// before `resize` and `reconfigure`. This is certain once a frame that was recorded after it has finished.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         (self.set_up, self.surrounded) = (true, false);
         self.environment.record_setup(&self.gpu, cmd);
@@ -140,11 +139,11 @@ impl Renderer {
         }
     }
 
-    /// Records an image of the host as the foam texture of shoreline and contact foam. It replaces the built-in one
-    /// until the next [`record_setup`](Self::record_setup). The image has one channel, 1 where foam appears first and
-    /// 0 where it appears last, and its opposite edges have to fit together. It may have any size; `rect` is the part
-    /// that is used. [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a
-    /// pattern.
+    /// Records the conversion of an image of the host to the foam texture of shoreline and contact foam. The result
+    /// replaces the built-in texture until the next [`record_setup`](Self::record_setup). The image has one channel,
+    /// 1 where foam appears first and 0 where it appears last. It may have any size. Only its part `rect` is used;
+    /// this part is repeated, so its opposite edges have to fit together.
+    /// [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a pattern.
     ///
     /// # Errors
     /// No [`Config::shore`], a bad image or slot; Vulkan errors.

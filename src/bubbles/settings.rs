@@ -169,8 +169,8 @@ impl Default for Film {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum FilmFresnel {
-    /// A face reflects by Fresnel's equations, for each polarisation by itself. The film's reflectance is Airy's sum
-    /// of the reflections in the film, averaged over both polarisations. Default.
+    /// Each of the film's two faces reflects by Fresnel's equations. For each polarisation, the film's reflectance is
+    /// Airy's sum of the reflections in the film; the result is the mean of both polarisations. Default.
     Exact,
     /// A face reflects by Schlick's approximation of Fresnel's equations, the same for both polarisations. The film's
     /// reflectance is Airy's sum of the reflections in the film.
@@ -214,8 +214,9 @@ pub struct BubbleSettings {
     /// Strength of the texture of small bubbles on the blob's core, 0 (none) to 1, default 0.7.
     pub pattern: f32,
     /// Weight w in the direction `(1 − w) v₁ + w v₂` in which the core's texture is looked up, 0 to 1, default 0.1
-    /// (Sec. 4.4): v₁ points from the blob's centre to where the ray leaves the bubble, v₂ is the bubble's negated
-    /// normal. Large values turn the texture's cells into rings around each bubble's centre.
+    /// (Sec. 4.4): v₁ points from the blob's centre to where the ray leaves the bubble, v₂ is the negated normal of
+    /// the bubble where the ray enters it. Large values turn the texture's cells into rings around each bubble's
+    /// centre.
     pub distortion: f32,
     /// Weight w of the normals in the lighting of the core, 0 to 1, default 0.5 (Sec. 4.4): its normal is
     /// `(1 − w) · bubble's + w · blob's`, normalized.
@@ -234,8 +235,8 @@ pub struct BubbleSettings {
     /// Simplification of Aggregate Detail). 0 to 64, default 1, 0 = off. With growing distance more blobs vanish, in
     /// an order that their ids determine; each one shrinks before it vanishes.
     pub min_pixels: f32,
-    /// Distances and size of the cross-fade from whitewater foam sprites to blobs, if [`BubbleConfig::crossfade`] is
-    /// set.
+    /// Cross-fade of whitewater foam from sprites, far from the camera, to blobs near it: its two distances, and the
+    /// radius of a blob relative to its particle. No effect without [`BubbleConfig::crossfade`].
     pub crossfade: Crossfade,
 }
 

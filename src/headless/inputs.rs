@@ -175,7 +175,8 @@ pub struct WhitewaterParts<'a> {
 }
 
 impl WhitewaterParts<'_> {
-    /// Uploads the next particles. The slices need not outlive the call.
+    /// Uploads the next particles. The slices need not outlive the call. Before [`finish`](Self::finish) all
+    /// announced particles have to be uploaded.
     ///
     /// # Errors
     /// An attribute is not as long as the positions; the part has other attributes than the previous part; there are

@@ -93,8 +93,9 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// Picture of the number of smoothing iterations at each texel of the front layer, taken from the level that has the
-/// greater weight there. `plan` is the image of these numbers for all levels.
+/// The layer `water.iterations`: the number of smoothing iterations planned at each texel of the front layer of
+/// water. Where two resolution levels are blended, it is the number of the one with the greater weight. `plan` is the
+/// renderer's image, which holds the numbers of all levels.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

@@ -112,7 +112,7 @@ pub struct ShoreMapStep<'a> {
     pub heights: Heights<'a>,
     /// Rectangle in which the land has changed since the last step: its minimum and maximum corner along the
     /// horizontal axes ([`Area::axes`]), scene units. Around land that has moved, it encloses the old and the new
-    /// position. `None`: everything is computed again, as it also is if `area` has changed.
+    /// position. With `None`, or if `area` is not that of the last step, the whole map is computed again.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
     pub before: Access,
@@ -549,9 +549,10 @@ impl ShoreMap {
         })
     }
 
-    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where it exceeds
-    /// [`Area::reach`], only the sign is right, and the absolute value is larger than the reach. The image has
-    /// transfer-source usage; after a step, fragment and compute shaders may sample it.
+    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where the shore is
+    /// farther away than [`Area::reach`], the value is not the distance: only its sign is right, and its absolute
+    /// value is larger than the reach. Each step ends with a barrier, after which fragment and compute shaders may
+    /// sample the image. It also has transfer-source usage; a copy needs a barrier of your own.
     pub fn distances(&self) -> vk::Image {
         self.grid.distances.handle
     }

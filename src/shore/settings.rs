@@ -174,9 +174,9 @@ pub struct ShorelineSettings {
     pub swing_amplitude: f32,
     /// Period of the oscillation, seconds, [0.1, 1e6], default 7.
     pub swing_period: f32,
-    /// Noise added to the frequency, radians per unit of v. Default: amplitude 5, scale 1/90 per scene unit.
+    /// Noise added to the frequency, radians per unit of v. Default: amplitude 5, scale 1/90 (one repetition in 90 scene units).
     pub frequency_noise: Noise,
-    /// Noise added to the wave speed, radians per second. Default: amplitude 0.35, scale 1/90 per scene unit. At each
+    /// Noise added to the wave speed, radians per second. Default: amplitude 0.35, scale 1/90 (one repetition in 90 scene units). At each
     /// place the added speed oscillates over time around 0, because with a constant added speed the phases of
     /// different places would drift apart without limit.
     pub speed_noise: Noise,
@@ -200,7 +200,7 @@ pub struct ShorelineSettings {
     /// Layers of the foam texture. Default: two.
     pub layers: [TextureLayer; LAYERS],
     /// Noise that displaces the positions at which the foam texture is looked up, scene units. Default: amplitude
-    /// 0.7, scale 1/18 per scene unit.
+    /// 0.7, scale 1/18 (one repetition in 18 scene units).
     pub texture_warp: Noise,
     /// Velocity of the positions at which the noise of `texture_warp` is looked up, along the two horizontal axes
     /// ([`Area::axes`](super::Area::axes)), scene units per second, [-1000, 1000], default 0.35 and 0.2. The noise
@@ -208,10 +208,10 @@ pub struct ShorelineSettings {
     pub texture_warp_velocity: [f32; 2],
     /// Threshold: there is foam where the mix of waves and foam texture is at least this, [-100, 100], default 0.39.
     pub threshold: f32,
-    /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 per scene unit.
+    /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 (one repetition in 90 scene units).
     pub threshold_noise: Noise,
     /// Noise n₃ added to both `wave_offset` and `texture_offset`, so that from place to place along the shore the foam
-    /// reaches less or more far out. Default: amplitude 0.22, scale 1/90 per scene unit.
+    /// reaches less or more far out. Default: amplitude 0.22, scale 1/90 (one repetition in 90 scene units).
     pub rise_noise: Noise,
     /// Noise that displaces the positions at which the foam texture and all other noises are looked up, scene units.
     /// The shore coordinate v is not displaced. Default: none.

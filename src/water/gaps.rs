@@ -166,8 +166,9 @@ impl Gaps {
         Ok(())
     }
 
-    /// `front` is the list of the spheres that can be visible, which suffices for the nearest sphere of each cell;
-    /// `all` is the list of all spheres. `depth` still contains water behind the scene, which `reduce` removes later.
+    /// `front` is the list of the spheres that can be visible; it suffices to find the nearest sphere of each cell.
+    /// `all` is the list of all spheres on the screen, hidden ones too; they mark the depth slices that hold water.
+    /// `depth` still contains water that the scene hides; `reduce` removes it later.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -85,8 +85,8 @@ pub(crate) struct Recording<'a> {
     pub bubbles: Resource,
     /// The uniforms of shoreline and contact foam.
     pub shore: Resource,
-    /// Whether whitewater particles have shapes, lifetimes or sizes other than the paper's, or the paper's falloff
-    /// behind the water's surface.
+    /// Whether whitewater needs the slower variant of its shaders: its shapes, sizes or fading with age are not the
+    /// paper's, or particles behind the water's surface fade by the paper's falloff.
     pub shaped: bool,
     /// Distances of the cross-fade from whitewater sprites to blobs; `None` without it.
     pub crossfade: Option<Resource>,

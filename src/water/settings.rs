@@ -62,9 +62,10 @@ pub struct ShadowFilter {
     /// width of the filter of [`Shadows::Map`]. The filter is never narrower than a texel of the image that the pass
     /// `convolution` makes from this map.
     pub width: f32,
-    /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the reconstructed visibility of the sun
-    /// oscillates by a twentieth (ringing) in lit and in shadowed areas; a `scale` above 1.12 clips this. With more
-    /// damping a shadow starts farther from its caster.
+    /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the reconstructed visibility of the
+    /// sun, which should be 1 in lit and 0 in shadowed areas, oscillates there by 0.05 (ringing). A `scale` above
+    /// 1.12 removes this, because visibility is limited to 0 to 1. With more damping a shadow starts farther from its
+    /// caster.
     pub damping: f32,
     /// Depth bias of the shadow, as a fraction of the depth over which the reconstructed visibility rises from one
     /// half to 1; [0, 1]. With 1, the default, a point that touches its occluder is lit. With 0 it is half in shadow,
@@ -132,7 +133,8 @@ pub enum Rule {
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Smoothing {
     /// One raster pass per iteration. In every fifth iteration an occlusion query counts the pixels that are still
-    /// being smoothed; if there are none, the GPU skips the remaining iterations.
+    /// being smoothed; if there are none, the GPU skips the remaining iterations, by the mechanism that the [`Gate`]
+    /// names.
     Query(Gate),
     /// One dispatch per iteration, over the tiles with pixels that are still being smoothed.
     Tiles,
@@ -671,17 +673,17 @@ pub struct SurfaceFoamSettings {
     /// a tenth of the foam's sprites are at least twice as thick as without the noise, and about a fifth at most a
     /// quarter as thick. Not in the thesis. Has to be 0 if [`noise`](Self::noise) is used.
     pub pattern: f32,
-    /// Size of the largest clumps, spacings, (0, 1e3], default 3.
+    /// Size of the largest clumps, spacings, [0.001, 1000], default 3.
     pub pattern_size: f32,
-    /// Seconds after which a clump that the foam's motion has stretched has been replaced by a new one, (0, 1e3],
-    /// default 1. Also the period after which the [`lace`](Self::lace) and [`SpraySettings::clumps`] are renewed.
+    /// Period in seconds in which all clumps are replaced by new ones, because the foam's motion stretches them, (0,
+    /// 1e3], default 1. The [`lace`](Self::lace) and [`SpraySettings::clumps`] are renewed in the same period.
     pub pattern_period: f32,
     /// How much thin foam is torn into threads with clear holes between them, [0, 1]. The holes close where foam is
     /// thick. With 0, the default, thin foam is an even veil. On average, threads and holes together hide as much as
     /// the veil would. Not in the thesis.
     pub lace: f32,
-    /// Size of the cells that contain the largest holes of the lace, spacings, (0, 1e3], default 4. Lace fades out
-    /// where these cells become smaller than six pixels, and is gone at two.
+    /// Edge length of the cells that contain the largest holes of the lace, spacings, [0.001, 1000], default 4. Where
+    /// these cells are smaller than six pixels, the lace fades into smooth foam; at two pixels it is gone.
     pub lace_size: f32,
     /// How strongly the lace shades foam, [0, 2], default 0: threads are brighter, up to a factor of 1.2, and holes
     /// darker, down to a factor of 0.5. The shading also shows on thick foam, whose holes are closed. No effect if
@@ -709,9 +711,9 @@ pub struct SurfaceFoamSettings {
     /// away from the sun, and in hollows all light is dimmed. Not in the thesis.
     pub shape: f32,
     /// Extinction of sunlight in foam, for the shadow that the foam casts, per scene unit, [0, ∞), default 0.25 /
-    /// spacing. The default is less than that of [`extinction`](Self::extinction), because most of the light that foam
-    /// scatters continues forwards. It also scales the shadow of spray ([`SpraySettings::shade`]). No effect without
-    /// [`Config::light_map_size`](crate::Config).
+    /// spacing. The default is less than that of [`extinction`](Self::extinction), because most of the light that
+    /// foam scatters continues forwards. The shadow of spray is proportional to this value too:
+    /// [`SpraySettings::shade`] is relative to it. No effect without [`Config::light_map_size`](crate::Config).
     pub shadow: f32,
     /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids::reach`]). A particle whose sum
     /// is at most a has no foam, one whose sum is at least b keeps all of its foam, and in between it keeps a part.
@@ -833,7 +835,7 @@ pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
     /// Half-axis of a particle's droplet in drawn radii (0.656 spacings each) if [`droplets`](Self::droplets) is 1,
-    /// (0, 8], default 0.5 as in the thesis. If `droplets` is above 1, the half-axis of each droplet is random, from
+    /// [1e-6, 8], default 0.5 as in the thesis. If `droplets` is above 1, the half-axis of each droplet is random, from
     /// 0.36 to 2 times `size/√(0.31·droplets)` and on average 0.6 times that, so that together they cover about as
     /// much as the single droplet would. On a particle that is only spray they are 1.8 times as large.
     pub size: f32,
@@ -848,8 +850,8 @@ pub struct SpraySettings {
     /// few large ones: their number is multiplied by a factor that falls from 1 to 0.3 for a particle that is only
     /// spray, and its mist by the cube of this factor.
     pub droplets: u32,
-    /// Fraction of the rest density below which a particle is only spray, [0, ∞), default 0.6: lines of particles
-    /// (0.48 with the usual cubic spline) are spray.
+    /// Fraction of the rest density below which a particle is drawn only as spray, not as water, [0, ∞), default 0.6.
+    /// A particle in a single row of particles, which has 0.48 with the usual cubic spline, is then spray.
     pub all_spray_density: f32,
     /// Fraction of the rest density at and above which a particle's water has its full radius and its surface foam is
     /// not reduced, at least `all_spray_density`, default 0.7. Down to `all_spray_density` the radius falls to half and
@@ -869,7 +871,7 @@ pub struct SpraySettings {
     /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. Mist replaces the first of the particle's
     /// droplets; if [`droplets`](Self::droplets) is 1 there is no mist.
     pub mist: f32,
-    /// Half-axis of the mist in spacings, (0, 8], default 0.5.
+    /// Half-axis of the mist in spacings, [1e-6, 8], default 0.5.
     pub mist_size: f32,
     /// How strongly the droplets and mist of all particles gather in clumps and strands, [0, 3], default 0 = even. No
     /// effect if [`droplets`](Self::droplets) is 1.
@@ -918,14 +920,16 @@ pub struct SpraySettings {
     /// becomes `(1 − s)·T + s·T^¼` (an octave of Wrenninge, Kulla, Lundqvist 2013), because light that droplets
     /// scatter forwards penetrates farther.
     pub scattering: f32,
-    /// Strength of screen-space self-shadowing, [0, 4], default 0. Spray is darker where the spray beside it in the
-    /// direction of the sun, up to a 22nd of the picture's height away, is denser, and brighter where that is
-    /// thinner. This shows shadows that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
+    /// Strength of screen-space self-shadowing, [0, 4], default 0. Each pixel of spray is compared with five points
+    /// that lie towards the sun on the screen, at most a 22nd of the picture's height away. If the spray there is
+    /// denser than at the pixel, the pixel is darker. If it is thinner, the pixel is brighter, but never brighter
+    /// than in full sunlight. This shows shadows that are too fine for a light map. Where sunlight is lost, skylight
+    /// is dimmed too, but less.
     pub relief: f32,
     /// Light that the middle of a glinting droplet sends to the eye in addition, relative to the sunlight that it
-    /// scatters, [0, 64], default 0. A glint is 0.35 times as wide as its droplet and at least 1.4 pixels. Each
-    /// droplet glints with a probability of 1/32, fixed by the particle's id. None does if
-    /// [`droplets`](Self::droplets) is 1.
+    /// scatters, [0, 64], default 0. A glint is 0.35 times as wide as its droplet and at least 1.4 pixels. On average
+    /// one droplet in 32 glints. This is decided for each droplet by its particle's id and its number, so it does not
+    /// change over time. There are no glints if [`droplets`](Self::droplets) is 1.
     pub glints: f32,
     /// Whether the light of spray is added to the light from behind (the thesis), without dimming it. Default false:
     /// spray is composited over what is behind.
@@ -1034,9 +1038,9 @@ pub struct SurfaceNoiseSettings {
     /// How fast a particle's noise fades with the particle's depth below the surface: if the front of the particle is
     /// `drawn radius / falloff` below it, the noise has 1/e of its strength. [0, 64], default 2; 0 means no fading.
     pub falloff: f32,
-    /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
+    /// Half-axis of a particle's noise in drawn radii, [0.001, 8], default 2.
     pub size: f32,
-    /// Number of cells of a particle's noise per drawn radius, (0, 16], default 1: somewhat finer than the particles.
+    /// Number of cells of a particle's noise per drawn radius, [0.001, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
     /// Fraction by which the height is reduced where the water lies on the scene, so that the scene behind is under
     /// water, [0, 1], default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the

@@ -1,5 +1,5 @@
 //! Screen-space rendering of whitewater: spray, foam and bubbles that are particles of their own, by the
-//! million (Akinci, Dippel, Akinci, Teschner, Screen Space Whitewater Rendering, 2013). One pass per file.
+//! million (Akinci, Dippel, Akinci, Teschner, Screen Space Foam Rendering, 2013). One pass per file.
 
 pub(crate) mod generate;
 mod quads;

@@ -60,8 +60,8 @@ pub struct BlobSimulationSettings {
     /// Time that a blob must have touched too few others (`split_support`) before it splits, seconds, [0, 10],
     /// default 0.1.
     pub split_delay: f32,
-    /// Duration of a split, seconds, [0.01, 10], default 0.5. In this time the blob shrinks to one half, and the
-    /// other half grows beside it.
+    /// Duration of a split, seconds, [0.01, 10], default 0.5. In this time the blob shrinks to half its volume, and a
+    /// second blob grows beside it from nothing to the other half.
     pub split_duration: f32,
     /// Number of substeps into which a step is divided, 1 to 64, default 4. The default forces are stable in substeps
     /// no longer than 1/200 s.

@@ -82,10 +82,10 @@ impl Scene {
         super::obj::parse(bytes)
     }
 
-    /// Reads the project's own format: boxes, cylinders and tubes (upright or rotated), spheres, a ground, a
-    /// camera, a sun, and for moving parts, which are listed by name, one pose per frame. Two or more boxes whose names
-    /// begin with `basin` form a basin: faces of these boxes that look into it are tiled, with a row of darker tiles at
-    /// the height `pool_level` if the file has one.
+    /// Reads the project's own format: boxes, cylinders and tubes, which may be rotated, spheres, a ground, a camera
+    /// and a sun. Each entry of `motion` lists the names of shapes that move together, and gives one pose for each
+    /// frame. Two or more boxes whose names begin with `basin` form a basin: the faces that look into it are tiled,
+    /// except those of rotated boxes. If `fluid` has a `pool_level`, there is a row of darker tiles at this height.
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, has an unknown key or another unit than metres, has neither

@@ -296,8 +296,8 @@ impl Material {
 }
 
 impl Scene {
-    /// Bounding box of the meshes (not the ground) over their whole motion, in world space; a unit box if there
-    /// are none.
+    /// Bounding box of the meshes (not the ground) over their whole motion, in world space; if there are none, the
+    /// box from −0.5 to 0.5 on each axis.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         self.bounds_in(Mat4::IDENTITY).unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)))
     }

@@ -70,7 +70,8 @@ impl Lists<'_> {
 /// The cells of a file, piece by piece, and the point of each.
 #[derive(Clone, Default)]
 pub(super) struct Cells {
-    /// Number of points of all pieces of the file so far; each point has one cell.
+    /// Number of points in all pieces added so far. It is also the number of their cells, because each point has one
+    /// cell.
     count: u64,
     /// Index of the point of each cell; `None` as long as every cell i has point i.
     order: Option<Vec<u32>>,

@@ -164,10 +164,10 @@ impl Particles {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. Velocities, densities, lifetimes, kinds and ids that
-    /// only one of the files has are dropped, with a warning, unless the other file has no particles. All ids are
-    /// dropped, with a warning, if the files give one id to different particles. [`extras`](Self::extras) are NaN for
-    /// particles of a file that lacks them.
+    /// Appends the particles of another file of the same frame. If one of the two files has no particles, those of
+    /// the other stay as they are. Otherwise velocities, densities, lifetimes, kinds and ids that only one of the
+    /// files has are dropped, with a warning. All ids are dropped, with a warning, if an id of one file also occurs
+    /// in the other. [`extras`](Self::extras) are NaN for particles of a file that lacks them.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }

@@ -59,8 +59,9 @@ impl Parts<'static> {
     /// Default number of particles per part.
     pub const USUAL: usize = 1 << 17;
 
-    /// Opens a file to return its particles in parts of at most `most` particles each. The last part may have fewer,
-    /// and so may a part from which ghosts are left out. A `most` of 0 counts as 1.
+    /// Opens a file to return its particles in parts of at most `most` particles each. The last part may have fewer.
+    /// So may a part from which ghosts (copies of particles of other pieces) are left out; it may even be empty. A
+    /// `most` of 0 counts as 1.
     ///
     /// # Errors
     /// Those of [`read`](super::read).

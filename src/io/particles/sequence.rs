@@ -147,7 +147,7 @@ pub enum SequenceError {
     },
 }
 
-/// Reads a range of frames, `A-B` (both included) or `A`.
+/// Reads a range of frames: `A-B` is A to B, both included; `A` is frame A alone.
 ///
 /// # Errors
 /// [`SequenceError::Pattern`] if the text is neither `A` nor `A-B` with whole numbers, or if `B` is less than `A`.

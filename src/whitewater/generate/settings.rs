@@ -75,10 +75,12 @@ pub struct GeneratorSettings {
     /// kinetic energy per mass. Over this range a factor on the emission from both other potentials rises from 0 to
     /// 1.
     pub energy: PotentialRange,
-    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e12]. From all causes
+    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e12]. It is reached where
+    /// both the trapped-air and the energy potential are at or above the maximum of their range. From all causes
     /// together, a fluid particle emits at most 64 particles per step.
     pub trapped_air_rate: f32,
-    /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e12].
+    /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e12]. It is reached where
+    /// both the wave-crest and the energy potential are at or above the maximum of their range.
     pub wave_crest_rate: f32,
     /// Minimum lifetime of foam, seconds, (0, max_lifetime], default 2. Spray and bubbles do not age.
     pub min_lifetime: f32,
@@ -87,7 +89,8 @@ pub struct GeneratorSettings {
     /// Acceleration, scene units per second squared, default (0, −9.81, 0).
     pub gravity: [f32; 3],
     /// Acceleration of a bubble against gravity, as a multiple of [`gravity`](Self::gravity), [0, 64], default 2 (k_b
-    /// of Eq. 7).
+    /// of Eq. 7). It is the net acceleration, apart from [`drag`](Self::drag): gravity does not act on bubbles
+    /// besides.
     pub buoyancy: f32,
     /// Share of the difference between the water's velocity and a bubble's velocity that the bubble takes on in each
     /// step, whatever the step's duration, [0, 1], default 0.8 (k_d of Eq. 7).
