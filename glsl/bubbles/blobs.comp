@@ -1,8 +1,10 @@
 #version 460
-// Pass `blobs`: lists the blobs (balls of soap bubbles) in each cell, a depth slice of a screen tile, front to back
-// (the paper draws a billboard for each blob). Three dispatches: the first transforms the blobs to eye space and
-// finds their depth range, the second counts the blobs in each cell, the third enters them. Between the second and
-// the third the counts are replaced by their exclusive prefix sums, which the third turns into inclusive ones.
+// Pass `blobs`: lists the blobs (balls of soap bubbles) in each cell, a depth slice of a screen tile. The slices are
+// in order front to back, the blobs within a cell in any order (the paper draws a billboard for each blob). Three
+// dispatches: the first finds the blobs that are on the screen, their places relative to the eye, and the range of the
+// depths of their nearest points; the second counts the blobs in each cell; the third enters them. Between the second
+// and the third the counts are replaced by their exclusive prefix sums, which the third turns into inclusive ones. With
+// the raster path of pass `peel` only the first runs.
 // Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"
@@ -67,7 +69,7 @@ float merged(float radius, float distance_, uint id) {
     return left * inversesqrt(mean);
 }
 
-// Transforms a blob to eye space and decides whether it is drawn.
+// Stores a blob with its place relative to the eye, and decides whether it is drawn.
 void place(uint index) {
     uint at = push.ball_word + index * push.ball_stride;
     vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);

@@ -1,6 +1,7 @@
 #version 460
-// Pass `cast`: shadow map of the blobs: distance along the light to the first blob, taken as a ball. Shadows of blobs
-// are grey, unlike those of water, because a blob's core is opaque.
+// Pass `cast`: shadow map of the blobs: distance along the light to the first blob, taken as a ball, from two radii of
+// the light's region before its centre. Blobs outside of the view cast shadows too. The shadows are grey, unlike those
+// of water, because a blob's core is opaque.
 // Reads: blobs. Writes: the map, by atomics.
 
 #include "frame.glsl"
@@ -25,7 +26,7 @@ void main() {
     vec4 ball = blobs[index].ball;
     ball.w *= CORE;
     int edge = imageSize(front).x;
-    // Width of a texel of this map, and of the light's own map.
+    // Width of a texel of this map in scene units. The map covers the same square as the light's other maps.
     float texel = frame.light_map.y * frame.light_map.x / float(edge);
     vec3 at = (frame.to_light * vec4(mat3(frame.view) * ball.xyz, 1.0)).xyz;
     vec2 middle = at.xy * float(edge);

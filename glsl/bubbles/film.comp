@@ -1,9 +1,9 @@
 #version 460
 // Pass `film`: table of the reflectance of a soap film by the cosine of the angle of incidence and by thickness, once
-// per renderer (Huszar, Szecsi, GPU-supported bubble and foam rendering, Sec. 3.1). It uses Airy's formula with the
-// phase of the refracted ray. The formula as printed has the angle outside the film, and the sine of the full phase
-// instead of half of it, so that its maxima lie at half their thickness. The table is for three wavelengths, as in
-// the paper, or for the whole spectrum.
+// per renderer (Huszar, Szecsi, GPU-supported bubble and foam rendering, Sec. 3.1). It uses Airy's formula, or that of
+// the paper (film.glsl), with the phase of the refracted ray. The paper's formula as printed has the angle outside the
+// film, and the sine of the full phase instead of half of it, so that its maxima lie at half their thickness. The table
+// is for three wavelengths, as in the paper, or for the whole spectrum.
 // Reads: nothing. Writes: table (RGBA16F), x: cosine 0 to 1, y: thickness from 0.
 
 #include "film.glsl"

@@ -1,9 +1,10 @@
 #version 460
 // Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6; theirs runs on the CPU). The forces are
 // attraction of near neighbours, repulsion of nearer ones, gravity and the push of solids. They derive from a
-// potential and are damped, so the energy of a closed system decreases from step to step; they begin and end
-// continuously. A blob with too few neighbours splits into two halves: one shrinks from the whole as the other grows.
-// Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
+// potential and are damped, so with short enough steps the energy of a closed system decreases from step to step; they
+// begin and end continuously. A blob with too few neighbours splits into two halves: one shrinks from the whole as the
+// other grows.
+// Reads: heaped, buckets, solids, field, turns, growths. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"
 #include "growth.glsl"
@@ -232,7 +233,7 @@ void main() {
     float wet = clamp((push.water.x - height + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
     vec3 pull = push.gravity.xyz * (1.0 - wet / push.water.y);
     vec3 speed = own.drift.xyz + dt * (sum.speed + pull);
-    // Drag is stronger in water than in air.
+    // Drag under water is 8 1/s, whatever the drag of air. Only the drag of air slows the spin.
     speed /= 1.0 + dt * mix(push.gravity.w, 8.0, wet);
     vec3 spin = (own.spin.xyz + dt * sum.spin) / (1.0 + dt * push.gravity.w);
     for (uint i = 0u; i < push.field_size.w; ++i) {

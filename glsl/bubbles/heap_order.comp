@@ -1,8 +1,8 @@
 #version 460
 // Pass `heap`, order: sorts the blobs of each bucket of the neighbour grid by id, so that sums over them are the same
-// in every run. Only the blobs with the lowest ids, MOST_IN_BUCKET of them, are sorted, and only they are read later:
-// with all blobs on one spot a full sort would hang a device.
-// Reads: balls, drifts, spins, ids, buckets. Writes: order, heaped.
+// in every run. Only the blobs with the lowest ids, MOST_IN_BUCKET of them, are sorted, and only they are read as
+// neighbours later: with all blobs on one spot a full sort would hang a device.
+// Reads: balls, drifts, spins, ids, buckets, order. Writes: order, heaped.
 
 #include "heap.glsl"
 
@@ -23,7 +23,7 @@ void main() {
     }
     uint begin = bucket > 0u ? buckets[bucket - 1u] : 0u;
     uint end = buckets[bucket];
-    // Only the first ones are read, so the rest need no order.
+    // Only the first ones are read as neighbours, so the rest need no order.
     uint sorted_end = min(end, begin + MOST_IN_BUCKET);
     for (uint i = begin; i < end; ++i) {
         uint own = order[i];

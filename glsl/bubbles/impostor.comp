@@ -1,8 +1,9 @@
 #version 460
 // Pass `impostor`: cube maps of the outermost surface of each different blob, once per renderer (Huszar, Szecsi, Sec.
 // 4.2, 4.3): all six faces of all blobs in one dispatch (the paper uses a geometry shader). There are two maps per
-// blob: distance of the surface from the centre, and index of the bubble there.
-// Reads: bubbles. Writes: distances (R32F), ids (bytes).
+// blob, each with a dispatch of its own: distance of the surface from the centre, and index of the bubble there. The
+// later passes use one of them; the other one is small.
+// Reads: bubbles. Writes: distances (R32F) or ids (bytes).
 
 #include "cube.glsl"
 

@@ -20,7 +20,8 @@ layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };
 layout(set = 0, binding = 5, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 6, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 12, std430) readonly buffer Spans { uvec2 spans[]; };
-// For each pixel its layers, front to back, then the max opacity.
+// For each pixel its layers, front to back, then the max opacity of the blobs that it has visited. The blobs behind
+// those would not change the picture.
 layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
 

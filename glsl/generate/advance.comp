@@ -1,7 +1,7 @@
 #version 460
 // Pass `advance`: moves the existing whitewater particles: spray flies, foam is advected by the water, bubbles rise in
 // it; only foam ages (Ihmsen et al. 2012, Sec. 3.3 and 3.4).
-// Reads: the grid. Writes: whitewater particles, flags of free slots.
+// Reads: the grid, counts, whitewater particles. Writes: whitewater particles, flags of free slots.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Pass `grid`, first part: stores the number of fluid particles of this simulation step, and clamps the number of
 // used slots for whitewater particles.
-// Reads: the host's count. Writes: counts.
+// Reads: the host's count, counts. Writes: counts.
 
 #include "random.glsl"
 #include "generate.glsl"

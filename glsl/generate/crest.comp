@@ -1,7 +1,8 @@
 #version 460
 // Pass `crest`: wave-crest potential (curvature where the surface moves outwards), and from all potentials the number
 // of whitewater particles to emit (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
-// Reads: the grid, normals, potentials. Writes: potentials, emission rates, number of particles to emit.
+// Reads: the grid, counts, normals, potentials. Writes: potentials, emission rates, number of particles to emit (for a
+// snapshot, pass `trace` replaces it).
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -19,7 +20,8 @@ layout(set = 0, binding = 8, std430) writeonly buffer Rates { float rates[]; };
 // A particle may be in a wave crest if the cosine of the angle between its velocity and its surface normal is at
 // least this.
 const float ALONG = 0.6;
-// Max number of whitewater particles per fluid particle and step.
+// Max number of whitewater particles that a fluid particle emits in a step. (A snapshot has another max:
+// generate_stages.glsl.)
 const float MOST_MADE = 64.0;
 
 // Curvature of the surface from convex neighbours only, which are those below the tangent plane.

@@ -1,10 +1,10 @@
 #version 460
 // Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et
 // al. 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. For a snapshot (a single frame
-// without steps before it) they are placed within a spacing of the fluid particle and get an age: the time since the
-// moment (stage) at which a steady flow would have emitted them.
-// Reads: the grid, normals or stages, number of particles to emit (exclusive prefix sum), free slots. Writes:
-// whitewater particles.
+// without steps before it) the cylinder is one spacing long and begins at the fluid particle, and foam gets an age: the
+// part of its life that has passed since the moment (stage) at which a steady flow would have emitted it.
+// Reads: places and motions of the grid, counts, normals or stages, number of particles to emit (exclusive prefix sum),
+// free slots. Writes: whitewater particles.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -43,7 +43,8 @@ void visit(uint i) {
     }
     vec3 velocity = motions[i].velocity;
     float speed = length(velocity);
-    // A particle at rest may emit too, where foam has flowed to it; the cylinder's axis is then the up direction.
+    // In a snapshot a particle at rest may emit too, where foam has flowed to it. The cylinder is then a disc with the
+    // axis +y.
     vec3 ahead = speed > 0.0 ? velocity / speed : vec3(0.0, 1.0, 0.0);
     float way = SNAPSHOT == 0u ? push.dt * speed : speed > 0.0 ? push.spacing : 0.0;
     vec3 x;
@@ -73,7 +74,7 @@ void visit(uint i) {
         uint slot = order < counts.free ? free_slots[order] : counts.high + beyond;
         float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
         float along = way * uniform_of(seed, id, 4u * k + random + 1u);
-        // The random angle is taken from −π to π, not from 0 to 2π, because sines are exact only near 0; the minus
+        // The random angle is taken from −π to π, not from 0 to 2π, because sines are precise only near 0; the minus
         // sign of `off` makes up for the half turn.
         float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + random + 2u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);

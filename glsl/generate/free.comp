@@ -1,6 +1,6 @@
 #version 460
 // Pass `advance`, last part: lists the free slots in order.
-// Reads: whitewater particles, flags of free slots (exclusive prefix sum). Writes: free slots.
+// Reads: counts, whitewater particles, flags of free slots (exclusive prefix sum). Writes: free slots.
 
 #include "random.glsl"
 #include "generate.glsl"

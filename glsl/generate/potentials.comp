@@ -1,7 +1,7 @@
 #version 460
 // Pass `potentials`: trapped-air potential and kinetic energy of each particle, and the surface normal (Ihmsen et al.
 // 2012, Sec. 3.1).
-// Reads: the grid. Writes: normals, potentials.
+// Reads: the grid, counts. Writes: normals, potentials.
 
 #include "random.glsl"
 #include "generate.glsl"

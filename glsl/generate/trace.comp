@@ -2,7 +2,7 @@
 // Pass `trace`, only for a snapshot (a single frame): number of whitewater particles that a steady flow would have
 // left at each water particle. The water's path is followed backwards through the velocities of this one frame, and
 // the emission along it is summed. (Ihmsen et al. 2012 simulate sequences only.)
-// Reads: the grid, emission rates. Writes: stages (in place of normals), number of particles to emit.
+// Reads: the grid, counts, emission rates. Writes: stages (in place of normals), number of particles to emit.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, last part: within each block of 1024 values,
-// from the sum of all blocks before it.
+// Passes `grid`, `advance`, `emit`, `blobs`, `heap` and `shape`, exclusive prefix sum, last part: within each block of
+// 1024 values, from the sum of all blocks before it.
 // Reads: counts, blocks, values. Writes: values.
 
 #include "scan.glsl"

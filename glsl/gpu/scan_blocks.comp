@@ -1,6 +1,6 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, second part: over the sums of the blocks, by
-// one workgroup.
+// Passes `grid`, `advance`, `emit`, `blobs`, `heap` and `shape`, exclusive prefix sum, second part: over the sums of
+// the blocks, by one workgroup.
 // Reads: counts, blocks. Writes: blocks, the total in counts.
 
 #include "scan.glsl"

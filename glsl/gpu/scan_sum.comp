@@ -1,6 +1,6 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, first part: the sum of each block of 1024
-// values.
+// Passes `grid`, `advance`, `emit`, `blobs`, `heap` and `shape`, exclusive prefix sum, first part: the sum of each
+// block of 1024 values.
 // Reads: counts, values. Writes: blocks.
 
 #include "scan.glsl"

@@ -1,4 +1,4 @@
-// Sources of light of pass `scene`: the sky's irradiance and the environment, both without the sun. Needs scene.glsl.
+// Sources of light of pass `scene`: the sky's irradiance and the environment, both without the sun. Needs nothing.
 // Reads: environment, irradiance.
 
 layout(set = 0, binding = 2) uniform samplerCube environment;

@@ -2,9 +2,9 @@
 // Pass `scene`: shades opaque meshes under sky and sun. Materials are Lambert and GGX (Walter et al. 2007, visibility
 // of Hammon 2017). The visibility of the sun comes from a shadow map. The sky's irradiance, from spherical harmonics,
 // is multiplied by the baked visibility of the sky. Light from other surfaces is baked per vertex. Patterns are
-// procedural in the mesh's own frame, and filtered by the footprint of the pixel: lines by the exact fraction that
-// they cover, noise by omitting octaves that are too fine.
-// Reads: shadow map, environment, irradiance, texture. Writes: scene colour.
+// procedural in the mesh's own frame, or in the world's if the mesh is not rotated, and filtered by the footprint of
+// the pixel: lines by the exact fraction that they cover, noise by omitting octaves that are too fine.
+// Reads: the scene's block, shadow map, environment, irradiance, texture. Writes: scene colour.
 
 #include "../headless/scene.glsl"
 #include "../headless/noise.glsl"
@@ -37,10 +37,10 @@ layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 6) uniform sampler2D shadow_depth; // the same, without comparison
 layout(set = 0, binding = 4) uniform sampler2D base_texture;
 layout(push_constant, std430) uniform Push {
-    vec4 turn;      // rotation of the mesh's frame (quaternion)
-    vec4 origin;    // origin of the mesh's frame (world)
+    vec4 turn;      // rotation of the mesh's frame (quaternion); identity for a mesh that is not rotated
+    vec4 origin;    // origin of the mesh's frame (world); 0 for a mesh that is not rotated
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // x: size, or height of the beach above the sea (m). y: height of the tiles' band (m).
+    vec4 pattern;   // x: size, or height of the beach above the sea (m). y: height of the tiles' band (m), -1e6: none.
                     // z is 1 for meshes of the backdrop, whose visibility of the sun is baked per vertex, else 0.
                     // w is 1 for stone in blocks, else 0.
 } push;
@@ -128,7 +128,7 @@ Surface planks(vec3 p, vec3 n, vec2 footprint, float width) {
     return s;
 }
 
-// Cast concrete: clouds, pores, streaks below the edges, formwork joints on upright faces.
+// Cast concrete: clouds, grain, pores; on upright faces also streaks, and damp at the foot.
 Surface concrete(vec3 p, vec3 n, float width) {
     float cloud = octaves(p, 1.7, 4, width);
     float grain = octaves(p + 31.0, 55.0, 2, width);
@@ -403,10 +403,10 @@ vec2 tap(int i) {
     return sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(turn), sin(turn));
 }
 
-// Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness), about as
-// wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise. Behind thin clouds a part of
-// the sun's light comes from a glow around the disc. The penumbra of this glow is several times as wide; its width
-// follows from the mean distance of the blockers (Fernando 2005).
+// Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness). It is
+// smooth and needs no noise. Its width is that of five texels of the shadow map, whatever the distance of the blockers.
+// Behind thin clouds a part of the sun's light comes from a glow around the disc. The radius of this glow's penumbra
+// follows from the mean distance of the blockers (Fernando 2005), from 1 to WIDEST texels.
 float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);

@@ -12,10 +12,10 @@ layout(set = 0, binding = 0, std140) uniform Scene {
     vec4 ray_x;         // a pixel's ray (world) is ray_z + ndc.x · ray_x + ndc.y · ray_y; w: ndc per pixel
     vec4 ray_y;         // w: ndc per pixel
     vec4 ray_z;
-    vec4 sun_direction; // direction to the sun (world); w: 1 if the ground hides the sky's lower half
+    vec4 sun_direction; // direction to the sun (world); w: 1 if ground or backdrop hide the sky's lower half
     vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc divided by it,
                         // 0 if the environment shows the sun itself
-    vec4 shadow_texel;  // texel of the shadow map in uv and in world units, height of the ground
+    vec4 shadow_texel;  // texel of the shadow map in uv (xy) and in world units; height of the ground, -1e9: none
     vec4 ground;        // centre x and z, distances at which the ground begins and ends to fade into the sky
     vec4 air;           // 1 / length of the haze, 0: clear; metres per world unit for procedural surfaces;
                         // clouds and band over the horizon, 0 to 1

@@ -16,7 +16,7 @@ layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_light;
 layout(location = 4) out vec4 out_around;
 
-// With one sample per pixel, this pass and the depth pass before it (depth.vert) must compute the same depth.
+// This draw and the draw of depth alone before it (depth.vert) must compute the same depth.
 invariant gl_Position;
 
 void main() {

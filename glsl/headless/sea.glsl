@@ -9,7 +9,7 @@
 // Light is attenuated and scattered along the refracted ray. What lies under water is looked up
 // along the straight ray; the waves displace only its patterns. Caustics are brighter where the
 // waves converge a bundle of the sun's rays.
-// Only the environment is reflected.
+// Of the surroundings only environment, clouds, band of haze and sun are reflected.
 // Needs scene.glsl, noise.glsl, light.glsl. Reads: the scene's block, environment, irradiance.
 
 const uint WATER = 1;
@@ -150,9 +150,9 @@ vec3 wobble(Surf s, float depth) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-// Transmittance of hazy air over a distance. Over the sea, salt and smoke scatter more light than the air itself
-// does. Their scattering is proportional to the wavelength to the power of -1.3 (atmosphere.glsl), so blue light is
-// lost first.
+// Transmittance of hazy air over a distance. Over a sea of water blue light is lost first: the rates are proportional
+// to the wavelength to the power of about -1.5, between those of salt and smoke (-1.3, atmosphere.glsl) and of air
+// (-4). Elsewhere all colours are lost alike.
 vec3 clear_air(float distant) {
     // `mix` instead of a conditional: if a specialization constant chooses between vectors, lavapipe
     // 22.3 selects only the first component.

@@ -2,7 +2,7 @@
 // Pass `scene`: draws the sky where there is no mesh: the displayed environment along the pixel's ray, and before it
 // thin clouds and a band of haze, if the scene has them. The sun's disc and glow are added unless the environment
 // contains them; the built-in sky does not, because the disc would be a few texels of huge radiance. If the scene has a
-// sea, it is drawn below the horizon, as deep water without a bottom.
+// sea, and the eye is above it, it is drawn below the horizon: lava, or deep water without a bottom.
 // Reads: environment, displayed environment, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"

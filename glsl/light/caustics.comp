@@ -80,8 +80,8 @@ void main() {
     // foam, because it scatters the light.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
                * exp(-4.0 * frame.shade.w * deep.y);
-    // Visibility of the sun: from the host's shadow map, or 1 if the host gives a shadow mask instead, because a mask
-    // has the shadow per pixel of the picture and not per texel of this light map.
+    // Visibility of the sun: from the host's shadow map. It is 1 if the host gives none, or a shadow mask instead,
+    // because a mask has the shadow per pixel of the picture and not per texel of this light map.
     float sun = SHADOW > 1u ? past_scene(eye_at((vec2(texel) + 0.5) / float(size), here), vec2(0.0)) : 1.0;
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));

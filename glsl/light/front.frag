@@ -1,6 +1,7 @@
 #version 460
-// Pass `light`: distance in scene units along the sunlight at which the light first meets water or foam. MIN
-// blending keeps the nearest disc. Not in the thesis. Reads: the discs of front.vert. Writes: front (R32F).
+// Pass `light`: distance in scene units along the sunlight, from the region's centre, at which the light first meets
+// water, foam or spray. MIN blending keeps the nearest disc. Not in the thesis. Reads: the discs of front.vert. Writes:
+// front (R32F).
 
 #include "frame.glsl"
 

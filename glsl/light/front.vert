@@ -1,6 +1,6 @@
 #version 460
-// Pass `light`: the discs of particles for the map of the first water that the sun meets (light_sprite.glsl). Not in
-// the thesis.
+// Pass `light`: the discs of particles for the map of the first water, foam or spray that sunlight meets
+// (light_sprite.glsl). Not in the thesis.
 // Reads: positions, densities, foam, members. Writes: the quad's corners, the discs.
 
 #define FRONT 1

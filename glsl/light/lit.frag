@@ -1,7 +1,7 @@
 #version 460
 // Pass `lit`: the scene with the shadows and caustics of water and foam (lit.glsl; caustics are the thesis' future
 // work, Sec. 6.2).
-// Reads: scene colour and depth, the light's maps. Writes: the whole lit scene.
+// Reads: scene colour and depth, caustics, inputs of sunlight.glsl. Writes: the whole lit scene.
 
 #include "frame.glsl"
 #include "convolution.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `caustics`, first part: smooths the front depth of the water in the light map along one axis, by a Gaussian.
-// Only texels with a similar depth, which are on the same surface, count. Not in the paper. Reads: front, or the
-// result of the first axis. Writes: smoothed.
+// Pass `caustics`, first part: smooths the front depth of the water in the light map along one axis, by a Gaussian that
+// ends at 2.5 standard deviations or 64 texels. Only texels with a similar depth, which are on the same surface, count.
+// Not in the paper. Reads: front, or the result of the first axis. Writes: smoothed.
 
 #include "frame.glsl"
 

@@ -28,6 +28,7 @@ void main() {
     float up = rounding_up(chance, ivec2(gl_FragCoord.xy));
     vec2 height = floor(amount * (thickness_kernel(rho2) / step) + up) * step;
     // Depths are rounded to multiples of 512 thickness steps, which is a quarter of s, where s is the particle
-    // spacing rounded down to a power of two. So products of thickness and depth, and their sums, are exact too.
+    // spacing rounded down to a power of two. So products of thickness and depth, and their sums, are exact too, up to
+    // 2048 s^2: for example 20 s of water at a depth of 100 s.
     thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
 }

@@ -36,7 +36,7 @@ layout(push_constant, std430) uniform Push {
 
 layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// Depth at which the light first meets water.
+// Depth at which the light first meets water, foam or spray of the water's particles.
 layout(set = 0, binding = 8) uniform sampler2D front;
 
 // A particle as seen from the sun.
@@ -118,8 +118,8 @@ ivec4 inside(ivec4 box) {
 bool shows(vec3 middle, float reach) {
     vec3 seen = (frame.to_light * (frame.view * vec4(middle, 1.0))).xyz;
     // How far the shadow of a particle in the sphere may reach from the sphere's centre `middle`, in texels of the
-    // light map: the sum of the sphere's radius, the largest radius of a particle, and the half-axis to which small
-    // particles are enlarged.
+    // light map: the sum of the sphere's radius, the default radius of a particle, and the half-axis to which small
+    // particles are enlarged. If particles have radii of their own, the sphere encloses them.
     float texel = frame.light_map.y;
     float wider = (reach + frame.whitewater.x) / texel + LEAST_REACH;
     vec2 at = seen.xy * frame.light_map.x;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `whitewater_light`, first part: computes the arguments of the indirect dispatches over the whitewater
-// particles. Not in the paper.
+// Passes `whitewater_light` and `near`, first part: computes the arguments of the indirect dispatches over the
+// whitewater particles. Not in the paper.
 // Reads: count. Writes: arguments.
 
 layout(local_size_x = 64) in;

@@ -45,7 +45,7 @@ struct Moments {
 };
 
 // Moments of a texel's whitewater from its sums w: mean and mean square of the position along the light, measured
-// from an integer near the mean. Everything except the final quotients is exact.
+// from an integer near the mean. Everything is exact except the quotients and the conversions to floats in them.
 Moments moments_of(uvec4 w) {
     Moments m;
     m.sum = float(w.x);

@@ -1,7 +1,7 @@
 #version 460
 // Pass `composite`, compute: draws shoreline and contact foam on the scene's own water surface over the scene's
 // colour, one workgroup per run (adjacent 8x8 tiles of a row). Particle water is drawn over it afterwards.
-// Reads: list, scene colour, shoreline and contact foam. Writes: output.
+// Reads: list, arguments, scene colour, shoreline and contact foam. Writes: output, for pixels with foam.
 
 #include "frame.glsl"
 #include "scene_color.glsl"

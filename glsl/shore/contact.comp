@@ -1,6 +1,6 @@
 #version 460
 // Pass `contact`: foam around objects (Lettier, Foam) on the water of particles, placed on its smoothed surface.
-// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, for pixels that have some.
+// Reads: list of tiles, depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, for pixels with some.
 // `composite` evaluates the sunlight on this foam, because the host's water surface behind it may be lit differently.
 
 #include "frame.glsl"

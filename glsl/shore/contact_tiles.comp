@@ -22,7 +22,7 @@ void main() {
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
     vec2 own = 1.0 / vec2(textureSize(depth, 0));
     // Least distance in depth, over the tile's pixels, from the front of the particles' water to the scene behind it.
-    // The smoothed surface differs from the front by less than `frame.surface.w`, so this is subtracted.
+    // The smoothed surface differs from the front by at most `frame.surface.w`, so this is subtracted.
     vec4 least = vec4(EMPTY);
     for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);

@@ -1,4 +1,4 @@
 #version 460
-// Pass `map`, heights: only depth is written. Reads: nothing. Writes: nothing.
+// Pass `map`, heights: writes no colour; the rasterizer writes the depth. Reads: nothing. Writes: nothing.
 
 void main() {}

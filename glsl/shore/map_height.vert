@@ -1,6 +1,6 @@
 #version 460
-// Pass `map`, heights: a host mesh drawn from above; the depth test keeps the highest point in each texel.
-// Reads: the host's vertices. Writes: positions in the map, heights as depths.
+// Pass `map`, heights: a host mesh drawn from above; the depth test keeps the highest surface at each texel's centre.
+// Reads: the host's vertices and indices. Writes: positions in the map, heights as depths.
 
 layout(set = 0, binding = 0, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Indices { uint indices[]; };
@@ -40,7 +40,7 @@ void main() {
         there = there && known && all(lessThan(abs(other), vec4(1.0e18)));
         vertex = corner == own ? other : vertex;
     }
-    // Heights are clamped to the range of the map, so that a peak above it stays land.
+    // The heights of the vertices are clamped to the range of the map, so that a peak above it stays land.
     vec3 place = vec3(dot(push.east, vertex), dot(push.north, vertex), clamp(dot(push.height, vertex), 0.0, 1.0));
     gl_Position = there ? vec4(place, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

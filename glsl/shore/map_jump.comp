@@ -1,7 +1,7 @@
 #version 460
 // Pass `map`, one step of jump flooding (Rong, Tan 2006): each texel takes the nearest of nine seeds (points of the
 // shore line), its own and those of the eight texels that are `jump` texels away along rows, columns and diagonals.
-// Reads: one image of seeds. Writes: the other.
+// Reads: one buffer of seeds, within the window. Writes: the other.
 
 #include "shore_map.glsl"
 

@@ -2,8 +2,8 @@
 // Pass `shoreline`: foam on the host's water surface: along shores, by the map of distances or by the slope of the
 // ground (blog), and around objects (Lettier, Foam). Differs from both sources: there is no mesh, and a pixel may be
 // covered in part, where the sources clip.
-// Reads: lists of tiles, scene depth, surface depth, noise, foam texture, map, mask, inputs of sunlight.glsl. Writes:
-// shoreline foam, contact foam, blocked share of sunlight.
+// Reads: lists of tiles, scene depth, surface depth, noise, foam texture, map, mask, shoreline foam of the strip,
+// inputs of sunlight.glsl. Writes: shoreline foam, contact foam, blocked share of sunlight, marks.
 
 #extension GL_EXT_control_flow_attributes : require
 #include "frame.glsl"
@@ -59,7 +59,8 @@ float v_by_depth(vec2 pixel, vec3 ray, float z, float scene) {
     return dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
 }
 
-// The surface at a pixel. Near the horizon no foam is visible.
+// The surface at a pixel. Its depth is limited to 1e6 scene units: foam farther away, near the horizon, is taken to be
+// invisible.
 Water water_at(vec2 pixel) {
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     float z = surface_at(pixel, ray);

@@ -1,7 +1,7 @@
 #version 460
 // Pass `shoreline`: the host's strip, a mesh along the shore whose vertices have a position and the shore coordinate
 // v, 0 at the sea's edge of the foam to 2 inland (blog, Sec. IV).
-// Reads: the host's streams. Writes: eye position, v.
+// Reads: the host's streams. Writes: corners with eye position and v.
 
 #include "frame.glsl"
 

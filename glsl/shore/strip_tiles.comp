@@ -18,7 +18,8 @@ const uint TILE = 8u; // pixels
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
     vec2 size = vec2(textureSize(foam, 0));
-    // No scene outside the frame.
+    // Pixels beside the frame are 0, because the strip is drawn only in the frame. Beyond the image's edge its last
+    // pixels are repeated.
     vec4 most = vec4(0.0);
     for (int i = 0; i < 16; ++i) {
         most = max(most, textureGather(foam, vec2(TILE * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));

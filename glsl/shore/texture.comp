@@ -1,7 +1,7 @@
 #version 460
 // Pass `web`: computes one mip level of the texture of shoreline foam (the web) or of its noise as half floats, which
-// are then copied to an image. A texel of the web has the mean coverage, the mean of its square, and the slopes; mean
-// and square give the variance, which stands for detail finer than a pixel. Not in the blog.
+// are then copied to an image. A texel of the web has the mean of the web's values, the mean of their squares, and the
+// mean slopes; mean and square give the variance, which stands for detail finer than a pixel. Not in the blog.
 // Reads: texels of the host, or 32-bit floats, or the previous level. Writes: the level.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,7 +28,8 @@ vec4 before_at(uvec2 at) {
 }
 
 // Samples the host's image at a texel of this mip level: bilinear, or, if the image has more texels than the level,
-// the mean over those that the texel covers. The image repeats.
+// the mean of bilinear samples spread evenly over the texel, no farther apart than the image's texels. The image
+// repeats. Values are clamped to 0 to 1.
 float host_at(ivec2 at) {
     vec2 step = push.part.zw / float(push.size);
     ivec2 taps = max(ivec2(ceil(step)), ivec2(1));

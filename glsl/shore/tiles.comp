@@ -86,7 +86,8 @@ void main() {
     vec2 middle = clamp(0.5 * (low + high), vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
     // `off` bounds, in scene units, by how much shore distances in the tile differ from the map's texel at `middle`,
     // the tile's centre: half the tile's diagonal, 1 texel to the centre of the nearest texel, and 1.5 texels to the
-    // four texels around a point.
+    // four texels around a point. It is no bound if that texel is so far from the shore that the map does not hold its
+    // distance but only a large number (map_distance.comp).
     float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
     float distance = texelFetch(map, ivec2(middle), 0).x;
     bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;

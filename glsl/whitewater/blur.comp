@@ -1,6 +1,7 @@
 #version 460
 // Pass `blur`: blurs the light and shadow of whitewater, to remove their sampling noise (Akinci et al. 2013, Sec.
-// 2.5; pass 7): first along rows, then along columns, but not across gaps in depth.
+// 2.5; pass 7): first along rows, then along columns. Pixels whose depth differs too much from the middle pixel's do
+// not count.
 // Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: light and shadow,
 // blurred.
 
@@ -9,8 +10,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: each pixel of a 4x4 block has only a sixteenth of the occlusion samples, so the blur must combine at least such
-// a block. It then reaches 4 pixels or more, across depth gaps up to the width of 8 pixels, however small the
-// particles are.
+// a block. It then reaches 4 pixels or more, and accepts differences in depth up to the width of 8 pixels, however
+// small the particles are.
 layout(constant_id = 1) const uint FAST = 0;
 const float BLOCK = FAST == 1u ? 4.0 : 0.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;
@@ -38,7 +39,8 @@ void main() {
     float search = texelFetch(normals, pixel, 0).w;
     float first = search * (frame.whitewater_search.x + frame.whitewater_search.y);
     float radius = max(frame.whitewater_color.w * 0.5 * first * frame.extent.y, BLOCK);
-    // The depth gap that ends the blur: two radii of the particle.
+    // Pixels whose depth differs by more than this do not count: two radii of the particle, with FAST at least the
+    // width of 8 pixels.
     float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
     // Number of pixels before and after this one.
     int at = pixel.x * push.step.x + pixel.y * push.step.y;

@@ -1,10 +1,11 @@
 #version 460
 // Pass `radiance`: ambient occlusion and environment light of the whitewater in each pixel (Akinci et al. 2013, Sec.
 // 2.4; pass 6). Occlusion is sampled at points in several spheres around the visible point, each larger than the one
-// before; all pixels share these points. Not in the paper: the sun's light and shadows, and the normal of particles
-// smaller than a pixel. A pixel's centre hits an arbitrary point of such a particle's sphere, and shading by the
-// normal there makes far foam look like salt and pepper. Instead the normal is the direction in which the samples of
-// the occlusion find open space, so that a plume is lit as one body.
+// before. Without FAST all pixels have the same points. Not in the paper: the sun's light and shadows, and the normal
+// of particles whose radius is less than a pixel. A pixel's centre hits an arbitrary point of such a particle's
+// sphere, and shading by the normal there makes far foam look like salt and pepper. Instead the normal is the
+// direction in which the samples of the occlusion find open space, so that a plume is lit as one body. For a radius
+// between one and two pixels both normals are mixed.
 // Reads: tiles with foam, depths of foam, fluid and scene, foam intensity, foam normal, points, irradiance,
 // environment, inputs of sunlight.glsl. Writes: foam normal, foam radiance.
 
@@ -26,7 +27,7 @@ layout(constant_id = 0) const uint SAMPLED = 0;
 // slope. Isolated foam needs that, because it gets no help from its neighbours' points. The number of points does not
 // depend on the size of the spheres, so that foam does not change with the distance.
 layout(constant_id = 1) const uint FAST = 0;
-// Number of points of all sixteen pixels together.
+// Max number of points of all sixteen pixels together.
 const float FAST_SAMPLES = 320.0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
@@ -118,7 +119,7 @@ void main() {
     }
     vec4 with = imageLoad(normals, pixel);
     vec3 position = vec3(ray_slope(vec2(pixel) + 0.5, frame.slope) * depth, -depth);
-    float metres = depth / abs(frame.projection.y); // per half height of the picture
+    float metres = depth / abs(frame.projection.y); // scene units per half height of the picture
     uint passes = uint(frame.whitewater_search.z);
     vec3 sum = vec3(0.0);
     // Sums of the points' vectors: weighted by occlusion at any distance, and unweighted.
@@ -159,8 +160,8 @@ void main() {
     // angle of 120° between its normal and the sun, instead of 90°.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.whitewater_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
-    // The environment is looked up in the directions of the points of the first sphere, even if `passes` is 0, so
-    // that no occlusion is sampled.
+    // With SAMPLED the environment is looked up in the directions of the points of the first sphere, even if `passes`
+    // is 0 and no occlusion is sampled.
     uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
     vec3 light = gathered(normal, first) + sun;
     float share = parts.x * frame.whitewater_opacity.z;

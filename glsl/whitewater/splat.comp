@@ -1,9 +1,9 @@
 #version 460
 // Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and
-// 2.2; passes 3 and 4), one invocation per particle. Unlike the water's depth, this depth is not smoothed, because
-// smoothing would weaken the occlusion. The second dispatch writes the attributes of the frontmost particle: normal,
-// and the radius in which occlusion is searched.
-// Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
+// 2.2; passes 3 and 4), one invocation per particle, a workgroup per large one. Unlike the water's depth, this depth is
+// not smoothed, because smoothing would weaken the occlusion. The second dispatch writes the attributes of the
+// frontmost particle: normal, and the radius in which occlusion is searched.
+// Reads: positions, kinds, radii, ages, ids, crossfade, words, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -39,7 +39,7 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    // The depth read here may be outdated when it is compared; then the atomic minimum has no effect.
+    // The depth read here may be outdated, that is, too large. The atomic minimum compares with the current one.
     uvec4 head = words[at / 4u];
     uint front = head[FRONT];
     if (FRONTMOST == 1u) {

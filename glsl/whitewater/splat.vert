@@ -1,6 +1,7 @@
 #version 460
 // Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4): a quad around the pixels of each
-// particle, whose edges lie between pixels. Reads: positions, kinds, radii, ages, ids. Writes: the quad's corners.
+// particle, whose edges lie between pixels. Reads: positions, kinds, radii, ages, ids, crossfade. Writes: the quad's
+// corners, the particle's sprite and footprint.
 
 #include "frame.glsl"
 #include "falloff.glsl"
@@ -11,7 +12,7 @@
 
 layout(location = 0) flat out vec4 sprite;    // depth of its centre, radius, life, kind
 layout(location = 1) flat out vec4 footprint; // centre in pixels, 1 / half-axes
-layout(location = 2) flat out vec2 parts;
+layout(location = 2) flat out vec2 parts;     // of the footprint: own, even
 
 void main() {
     Whitewater p = whitewater_at(gl_InstanceIndex);

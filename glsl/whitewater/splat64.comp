@@ -2,7 +2,7 @@
 // Pass `splat` in one dispatch, with 64-bit atomics (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4). The upper
 // half of a word is the depth of a particle, the lower half its attributes, so one minimum finds both for the
 // frontmost. The result is that of the two dispatches of splat.comp.
-// Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
+// Reads: positions, kinds, radii, ages, ids, crossfade, words, arguments, packets, list. Writes: words, list.
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_shader_atomic_int64 : require
@@ -49,8 +49,8 @@ void splat(ivec2 pixel, Sprite s) {
     if (!(bits < pixels[own].scene)) {
         return;
     }
-    // Most particles lie behind the stored depth, and a read is cheaper than an atomic. If another invocation has
-    // meanwhile stored a nearer depth, the atomic has no effect.
+    // Most particles lie behind the stored depth, and a read is cheaper than an atomic. The depth read here may be
+    // outdated, that is, too large. The atomic compares with the current one.
     if (bits <= uint(pixels[own].front >> 32)) {
         atomicMin(pixels[own].front, uint64_t(bits) << 32 | with_of(s.search, place, w));
     }
