@@ -1,5 +1,5 @@
 // Tells which pixels and blocks without water are shaded nevertheless. Needs frame.glsl, surface_foam_texels.glsl.
-// Reads: foam depth, spray, depth and intensity of whitewater particles, depth of bubble foam.
+// Reads: foam depth, spray, depth of whitewater particles, depth of bubble foam.
 
 // 1: there may be surface foam; 0: its image is not read.
 layout(constant_id = 9) const uint FOAM = 0;

@@ -2,7 +2,7 @@
 // frame.glsl and the image `depth`.
 
 // The depth that represents a block of pixels: the depth `nearest` of its nearest surface. If this surface covers
-// less than a quarter of the block's pixels with water, it is the depth of the next surface behind instead. Otherwise
+// less than a quarter of those pixels that show water, it is the depth of the next surface behind instead. Otherwise
 // a drop would hide a texel of the pool behind it from the smoothing; the drop is drawn with its own shape anyway.
 float block_depth(ivec2 first, ivec2 end, float nearest) {
     float second = EMPTY;

@@ -13,7 +13,7 @@ struct Counts {
     uint large_groups[3]; // dispatch over the large sprites
     uint cull_groups[3];  // dispatch over the particles of this chunk
     uint particles;       // number of those
-    uint dropped;         // NaN or infinite
+    uint dropped;         // a coordinate is NaN, infinite, or at least 1e18 in magnitude
     uint spray;           // particles below the density threshold
     uint foam_vertices;   // foam: vertexCount = 4
     uint foam;            // instanceCount

@@ -92,8 +92,9 @@ struct Disc {
     float area;   // product of the half-axes
 };
 
-// The thickness sprite of an ellipsoid with axes multiplied by `scale`. Half-axes below a pixel are widened to one.
-// The thickness at the centre must be divided by `area`, so that the sprite keeps its volume.
+// The thickness sprite of an ellipsoid with axes multiplied by `scale`. `slope` converts texels of the image to slopes
+// of rays; half-axes below one texel are widened to one. The thickness at the centre must be divided by `area`, so
+// that the sprite keeps its volume.
 Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     mat3 b = ellipsoid_dual(e, scale * e.sphere.w);
     float depth = -e.sphere.z;

@@ -3,8 +3,9 @@
 // scene. If air follows behind the water, the far surface refracts the ray once more. Differs from Wyman: the far
 // surface is the front surface moved back by the thickness, and its slope is the sum of the front surface's and the
 // thickness' slopes; the scene behind is found by a screen-space march.
-// Needs frame.glsl, surface.glsl, march.glsl, `Sheet` and `fresnel` of shade.glsl, and `scene_at`. Reads: thickness,
-// scene colour and depth, environment.
+// Needs frame.glsl, sheets.glsl, surface.glsl, march.glsl, met_water.glsl, and `Sheet`, FLATTEST, `air`, `fresnel`,
+// `spline_slope` and `spline_rise` of shade.glsl. Reads: thickness, sheets, boundaries, scene depth, environment,
+// inputs of met_water.glsl.
 
 // Weight of the light from the directions into which the far surface bends rays; the rest of the light comes straight
 // through, because water in the air has ripples finer than its particles. With weight 1, every crown of a splash and
@@ -161,8 +162,8 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
     bool total = square <= 0.0;
     float outer = sqrt(max(square, 0.0));
-    // Share of the light that the far surface reflects back into the sheet. It rises to 1 at the angle beyond which
-    // total reflection leaves no refracted ray, so both cases meet without an edge.
+    // `thrown`: share of the light that the far surface reflects back into the sheet. With Schlick's form it rises to
+    // 1 at the angle beyond which total reflection leaves no refracted ray, so both cases meet without an edge.
     vec3 inward = normalize(inside + 2.0 * inner * n);
     float thrown = fresnel(outer);
     vec3 along = total ? inward : normalize(inside / ratio + n * (inner / ratio - outer));

@@ -22,13 +22,13 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
     vec4 density;       // only spray below x, full radius above y, no spray above z; droplets per particle
     vec4 smoothing;     // width, depth falloff, maximum iterations, fixed count
-    vec4 medium_a;      // physical: absorption; source: base colour; w: 1 = source
-    vec4 medium_b;      // physical: scattering; source: falloff
+    vec4 medium_a;      // physical: absorption; turbid: 0; source: base colour; w: 1 = source
+    vec4 medium_b;      // physical: scattering; turbid: extinction, share of scattered light; source: falloff
     vec4 fresnel;       // bias, scale, power
     vec4 surface;       // refraction, specular, shininess, border threshold
     vec4 sun_direction; // eye space
     vec4 sun_color;
-    vec4 ambient;       // w: 1 = the thesis' composite
+    vec4 ambient;       // turbid: radiance of an infinitely deep body; w: 1 = the thesis' composite
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // amplitude, cells per second; relief; thickness below which foam fades
     vec4 foam_pattern;  // strength of the pattern; of the lace; width of the lace's cells in scene units; half the pattern's period in seconds
@@ -48,7 +48,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shadow_map;    // bias in scene units; 1, or -1 where depth is reversed
     vec4 shadow_rect;   // first texel and size of the part of the shadow map or mask
     vec4 light_map;     // side length of the maps in texels; of a texel in scene units; smoothing in scene units
-    vec4 shade;         // shade relative to sunlight; foam's extinction of sunlight
+    vec4 shade;         // irradiance of level ground in shade over that in sun; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, for the image that `lit` reads
     vec4 lit_origin;
     vec4 shadow_linear; // depth d of the shadow map -> (x d + y) / (z d + w), linear along the light

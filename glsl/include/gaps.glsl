@@ -17,9 +17,10 @@ const int AIRS = 5;
 const uint AIR_WORDS = 4u;
 // Distance before and behind a sphere's centre within which it marks slices.
 const float REACH = 0.8;
-// A sphere marks the screen cells whose centres lie inside its silhouette or at most this far beside it, in particle
-// spacings. So a cell counts every sphere whose centre is within a spacing of its own centre. Otherwise cells much
-// smaller than the spheres would find air between the spheres of one body of water.
+// A sphere marks the screen cells that the bounding box of its silhouette touches, and those whose centres are at most
+// this far beside the box, in particle spacings. So a cell counts every sphere of the drawn radius whose centre is
+// within a spacing of its own centre. Otherwise cells much smaller than the spheres would find air between the spheres
+// of one body of water.
 const float BESIDE = 0.35;
 // Numbers of depth slices that the water behind a gap fills: water with at most the first number is a drop, with at
 // least the second a body of water, and in between partly one. One sphere marks 13 or 14 slices.

@@ -49,7 +49,7 @@ vec4 gradient_noise_slope(vec3 p) {
     return sum;
 }
 
-// Gradient noise with mean 0, between -1.23 and 1.23.
+// Gradient noise with mean 0, between -1.04 and 1.04.
 float gradient_noise(vec3 p) {
     vec3 cell = floor(p);
     vec3 f = p - cell;

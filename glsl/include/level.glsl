@@ -22,9 +22,9 @@ layout(set = 0, binding = 7, std140) uniform Levels {
     vec4 near;
 } levels;
 
-// The tiles of coarser levels that contain something near enough to need them.
 const uint MOST_GROUPS = 65535u; // limit of a dispatch, on each axis
 
+// The tiles of coarser levels that contain something near enough to need the level, and the tiles beside those.
 struct Marked {
     uint groups[3]; // dispatch over them, one workgroup per tile
     uint count;

@@ -1,8 +1,8 @@
 // Screen-space ray march against the scene's depth (McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing";
-// not in the thesis). Unlike in that paper, each step is longer than the one before by a constant factor, from a
-// fraction of the picture's height at the start to the point where the ray leaves the view; bisection and a secant
-// step then refine the hit. No parameter is an absolute length: steps are fractions of the picture, and the scene is
-// assumed to be as thick as twice the ray's change of depth in a step plus a fraction of the scene's depth.
+// not in the thesis). Unlike in that paper, each step multiplies the distance from the start by a constant factor: from
+// a fraction of the picture's height after the first step to the point where the ray leaves the view. Bisection and a
+// secant step then refine the hit. No parameter is an absolute length: steps are fractions of the picture, and the
+// scene is assumed to be as thick as twice the ray's change of depth in a step plus a fraction of the scene's depth.
 // Needs frame.glsl. Reads: scene depth (the includer's).
 
 struct Met {

@@ -52,8 +52,8 @@ uint sum_index(uint texel, uint surface, uint i) {
 }
 
 // Weight of a particle with its centre at `depth` in the mean of a surface: 1 within one drawn radius of the surface,
-// 0 beyond three. The centre of the sphere that forms the surface is one radius behind it, the centres of the next
-// layer of spheres are two radii farther.
+// 0 beyond three. The centre of the sphere that forms the surface is at most one radius behind it, the centres of the
+// next layer of spheres are about one spacing, which is 1.5 radii, farther.
 float near_surface(float depth, float surface) {
     return 1.0 - smoothstep(frame.particle.x, 3.0 * frame.particle.x, abs(depth - surface));
 }

@@ -4,8 +4,9 @@
 // the scene, both weighted by Fresnel, and has a highlight of the sun. Two sheets are not in the thesis (its
 // limitation, Fig. 5.13). Whitewater behind the water's surface is composited inside the water, the rest of it over
 // the water.
-// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam,
-// thickness and light of whitewater particles, bubble foam, contact foam.
+// Reads: smoothed, levels, depth, thickness, sheets, boundaries, noise, scene colour and depth, environment, depth,
+// thickness and drift of foam, spray, depth, thickness and light of whitewater particles, depth and colour of bubble
+// foam, contact foam, inputs of sunlight.glsl.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl,
 // sunlight.glsl, shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl,
 // gradient_noise.glsl.
@@ -136,9 +137,9 @@ bool stands_before(vec2 at, float z) {
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
 
-// Whether the scene behind the water cannot be looked up at a point: it is outside the view, or a texel that
-// filtering of the scene's colour would read lies in front of z. Loops instead of branches, for CPU drivers
-// (docs/performance.md).
+// Whether the scene behind the water cannot be looked up at a point: it is outside the view, or a texel of the scene's
+// depth near it lies in front of z. The texels examined include those that filtering reads of a scene colour that has
+// the view's resolution. Loops instead of branches, for CPU drivers (docs/performance.md).
 bool hidden_at(vec2 q, float z) {
     bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
     int corners = same ? 1 : 4;
@@ -474,7 +475,7 @@ const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.
 // Cosine of the angle between the foam's normal and the sun: at the first value foam is unlit, at the second fully
 // lit. The range is wide because light scatters in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
-// Fraction of skylight that foam loses at most: in a hollow whose surroundings are all nearer to the eye by at least
+// Fraction of all light that foam loses at most: in a hollow whose surroundings are all nearer to the eye by at least
 // `reach`, the distance of the samples.
 const float SHAPE_HOLLOW = 0.6;
 
@@ -489,7 +490,7 @@ float foam_beyond(vec2 h, float z, float reach) {
     return mix(mix(beyond.x, beyond.y, f.x), mix(beyond.z, beyond.w, f.x), f.y);
 }
 
-// Visibility of the sun (x) and of the sky (y), estimated from the shape of the foam around a pixel, so that a splash
+// Factors on sunlight (x) and on all light (y), estimated from the shape of the foam around a pixel, so that a splash
 // has a shaded side and dark hollows. Not in the thesis.
 vec2 shape_light(vec2 pixel, float z) {
     float reach = SHAPE_REACH.x * frame.particle.y;
@@ -851,9 +852,9 @@ const float RELIEF_OF_SKY = 0.19;
 // Largest half float.
 const float MOST_HALF = 65504.0;
 
-// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the same weighted by sunlight (spray.frag). Spray is
-// darker where the spray next to it on the screen, in the sun's direction, is denser, and brighter where that spray is
-// thinner.
+// Light on spray, relative to that in full sun: the factor on `frame.spray_color`. `droplets`: x the optical depth, y
+// the same weighted by sunlight (spray.frag). Spray is darker where the spray next to it on the screen, in the sun's
+// direction, is denser, and brighter where that spray is thinner.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
     // Half floats may have overflowed to infinity, which would give NaN.
     droplets = min(droplets, MOST_HALF);

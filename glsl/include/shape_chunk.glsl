@@ -28,7 +28,7 @@ vec3 position_of(uint i) {
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
-// Particles that are not finite, or far beyond any scene, are ignored.
+// False for particles that are not finite or far beyond any scene: they are not in the grid and stay spheres.
 bool takes_part(vec3 position) {
     // Comparisons with NaN are false.
     return all(lessThan(abs(position), vec3(min(1.0e18, 1073741824.0 / push.cells))));

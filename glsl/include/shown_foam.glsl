@@ -1,5 +1,5 @@
 // The foam that a pixel shows, of pass `surface_foam`. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth
-// and thickness.
+// and thickness, scene depth.
 
 // 1: there may be foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
@@ -8,13 +8,14 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// For motion vectors: returns the eye depth of the frontmost foam at a pixel if the foam's opacity is at least a
-// half, otherwise EMPTY, so that thinner foam gets the motion of the surface behind it.
+// For motion vectors: returns the eye depth of the frontmost foam at a pixel if the foam's opacity along the view axis,
+// without lace and aeration, is at least a half, otherwise EMPTY, so that thinner foam gets the motion of the surface
+// behind it.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;
     }
-    // The same test as in `composite`.
+    // Whether the scene hides the foam is tested as in `composite`.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     FoamTexels texels = foam_texels(foam_depth, pixel, scene);
     float t = 0.0;

@@ -2,7 +2,7 @@
 // Listings A.8, A.9.) Needs nothing.
 
 // Bounds of the projected sphere in slopes xy / depth (min xy, max xy). They come from the tangents through the eye
-// in the xz and yz planes. False if the sphere reaches the eye plane and so has no bounds.
+// in the xz and yz planes. False if the sphere reaches the eye plane, or nearly does, and so has no (finite) bounds.
 bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     float d = -centre.z;
     float h = d * d - radius * radius;

@@ -7,10 +7,11 @@ struct SpraySprite {
     uvec4 shape;   // of its droplets and mist, in the world (axes.glsl); sum of its neighbours' weights
 };
 
-// Half-axes of droplets relative to the mean one: that of the smallest, and that of the largest minus that of the
-// smallest, both before they are divided by the square root of torn_of.
+// Half-axes of droplets relative to frame.spray.y: that of the smallest, and that of the largest minus that of the
+// smallest, both before they are divided by the square root of torn_of. Before that their mean is 0.6, and the mean of
+// their squares 0.513.
 const float SMALLEST_DROPLET = 0.36;
 const float DROPLET_RANGE = 1.661;
-// Half-axis of the largest droplet relative to the mean one. A particle that is only spray has it, because there
+// Half-axis of the largest droplet relative to frame.spray.y. A particle that is only spray has it, because there
 // torn_of is LEAST_TORN.
 const float LARGEST_DROPLET = (SMALLEST_DROPLET + DROPLET_RANGE) * inversesqrt(LEAST_TORN);

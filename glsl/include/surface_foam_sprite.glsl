@@ -94,8 +94,8 @@ vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float dept
     // The front layer ends softly within a spacing, so that foam does not pop when it passes the layer's end.
     float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
     float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    // `far` grows with the distance behind the front layer. It is bounded by 1, so that steps can hold the sum, and
-    // gives most weight to changes of near foam, which hides the rest.
+    // `far` is 0 up to one spacing behind the frontmost foam and grows with the distance behind that. It is bounded by
+    // 1, so that steps can hold the sum, and gives most weight to changes of near foam, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
     return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));

@@ -19,8 +19,9 @@ const uint WORDS = 5u + LIT;
 // Max sum, in fixed-point steps: single precision represents all integers up to it. It is a thickness of 4096 to
 // 8192 spacings of foam, because a step is more than 1/4096 and at most 1/2048 of a spacing (`foam_step`).
 const uint FULL = 16777216u;
-// No more is added to a sum that exceeds this. Up to 2^32 there is room for 85 thousand invocations that add at the
-// same time.
+// No more is added to a sum that has reached this. A sprite adds at most 25 thousand steps without the foam's pattern,
+// so up to 2^32 there is room for 85 thousand invocations that add at the same time. The pattern multiplies the steps
+// (`foam_steps`), so with it there is room for fewer.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {

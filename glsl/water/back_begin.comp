@@ -16,8 +16,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
 
 shared uint wanted;
 
-// Whether there is a boundary in the tile or within a tile's width around it, which is as far as smoothing reaches.
-// Boundaries are never isolated, so it suffices to test every eighth pixel on each axis.
+// Whether there is a boundary in the tile or within a tile's width around it; from farther away smoothing has next to
+// no effect. One pixel in each block of 8x8 is tested, because boundaries come from airs of cells of that size.
 bool boundary_near(ivec2 corner, int edge) {
     ivec2 extent = ivec2(frame.extent.xy);
     ivec2 first = max((corner - 16) * edge, ivec2(0)) >> 3;

@@ -3,7 +3,7 @@
 // Sec. 3.2). Each particle's state is looked up by id in the hash table of the previous step, advanced, and entered
 // in the table of this step. So the order of the particles does not matter, and ids that have vanished are forgotten.
 // A dispatch binds one part of each table and handles the particles whose ids belong there.
-// Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
+// Reads: velocities, densities, ids, the host's count, the old table. Writes: the new table, foam.
 
 #include "random.glsl"
 

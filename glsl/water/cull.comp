@@ -1,9 +1,10 @@
 #version 460
-// Pass `cull`, the first to read the water's particles: drops those with NaN or infinite positions and those that are
-// only spray, and culls the others against the frustum (thesis Sec. 4.3: the host's packets, which are groups of
-// particles with a bounding box, or each bounding sphere). It writes the survivors in eye space to a list: those whose
-// sprite is small on the screen fill it from the front, those whose sprite is large from the back.
-// Reads: positions (for ellipsoids with their shapes), densities, packets. Writes: Counts, visible, members.
+// Pass `cull`: drops particles whose position is NaN, infinite or huge, leaves out those that are only spray or only
+// foam, and culls the others against the frustum (thesis Sec. 4.3: the host's packets, which are groups of particles
+// with a bounding box, or each bounding sphere). It writes the survivors in eye space to a list: those whose sprite is
+// small on the screen fill it from the front, those whose sprite is large from the back.
+// Reads: Counts (particles), positions (for ellipsoids with their shapes), densities, foam amounts, packets. Writes:
+// Counts, visible, shares, members.
 
 #include "frame.glsl"
 #include "frustum.glsl"

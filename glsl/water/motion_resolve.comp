@@ -21,7 +21,7 @@ layout(set = 0, binding = 3) uniform sampler2D depth;
 // A format qualifier would need a feature (shaderStorageImageExtendedFormats), so there is none.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
-// A 64-bit sum, rounded once.
+// A 64-bit sum as a float.
 float sum_at(uint at) {
     uint low = sums[at];
     uint high = sums[at + 1u];
@@ -114,8 +114,8 @@ void main() {
     bool sky = z >= EMPTY;
     vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
     vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);
-    // A point that was behind the eye in the previous frame had no position on the screen: its depth there is raised
-    // to that of the near plane (for points at infinity, to 1e-3).
+    // A point that was behind the eye in the previous frame had no position on the screen. So that its vector stays
+    // finite, the divisor is at least the depth of the near plane (for points at infinity, 1e-3).
     float before = max((sky ? 1.0 : z) - change.z, sky ? 1.0e-3 : frame.before_lens.z);
     vec2 slope_change = (change.xy + slope * change.z) / before;
     vec2 vector = slope * frame.lens_change.xy - frame.lens_change.zw - slope_change * frame.before_lens.xy;

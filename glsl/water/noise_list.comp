@@ -1,5 +1,5 @@
 #version 460
-// Pass `noise`, first part: lists the particles on the screen that are not spray, in eye space. (Omitting the
+// Pass `noise`, first part: lists the particles in the view that are not only spray, in eye space. (Omitting the
 // particles that pass `front` finds hidden saved nothing, because spheres too small to cover a cell of 4x4 pixels
 // hide nothing.)
 // Reads: Counts (particles), positions, densities, ids, members. Writes: Counts (noise), sprites.

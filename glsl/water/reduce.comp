@@ -2,8 +2,8 @@
 // Pass `reduce`: rejects water behind the scene, takes for each block of pixels the depth of the nearest surface (but
 // not of a single drop), and plans the smoothing of that depth: the number of iterations and the step size, fixed
 // from here on (thesis Sec. 3.1, Listing A.12).
-// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan, work of
-// every tile.
+// Reads: depth, scene depth, levels, images of beside.glsl. Writes: depth (occluded pixels emptied); of the first
+// level both smoothing images, plan, work of its tiles.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -58,8 +58,8 @@ float reduced(ivec2 block, out float best, out bool other) {
             }
         }
     }
-    // A surface counts as a drop if it covers less than a quarter of the block's pixels with water, so a block of up
-    // to four pixels has none.
+    // A surface counts as a drop if it covers less than a quarter of those pixels of the block that show water, so a
+    // block of up to four pixels has none.
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 

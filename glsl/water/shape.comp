@@ -41,7 +41,7 @@ const float STEPS = 65536.0;
 const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 
 // Sums of the neighbours' weights between which a particle grows from the size of a lone one to full size. For each
-// of two particles alone the sum is at most 1, for a particle in a line of them 2.9.
+// of two particles alone the sum is at most 1, for a particle in a line of them 2.8 (with a reach of 2.5 spacings).
 const vec2 ALONE = vec2(1.5, 2.5);
 
 // A film is water one particle thick, on a floor or a wall. Three values decide gradually, each between two limits,

@@ -3,7 +3,7 @@
 // their rims are smooth (Yu and Turk 2013, Eq. 6). The mean displacement of the neighbourhood is subtracted (Vollmer,
 // Mencl, Mueller 1999), because with Eq. 6 alone the whole surface moves inwards, and a body of water shrinks away
 // from its walls. In this mean, large displacements have a large weight: they belong to particles at the surface.
-// Reads: the grid, counts, shifts. Writes: shaped (places).
+// Reads: the grid, counts, shifts. Writes: shaped (positions).
 
 #include "random.glsl"
 #include "place.glsl"

@@ -62,8 +62,8 @@ void visit(uint index) {
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
     // The droplets of a particle lie within the scatter radius around its centre; `reach`, the radius for culling,
-    // adds their sizes and streaks. A particle nearer to the eye than the scatter radius is not drawn, because it
-    // would fill the picture.
+    // adds their sizes, streaks and shifts along the motion. A particle whose depth is at most the scatter radius is
+    // not drawn, because it would fill the picture.
     uvec4 shape = uvec4(pack_axes(mat3(1.0)), floatBitsToUint(CROWDED));
     if (push.shape_stride > 0u) {
         at = push.shape_word + index * push.shape_stride;

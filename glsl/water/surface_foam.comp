@@ -82,9 +82,9 @@ Splat splat_of(uint index) {
 }
 
 // Adds `steps` to the texel's sums of thickness from `word` on, most of which get 0. Any number of sprites may lie on
-// one spot: an addition to a word that is already half full is subtracted again, so no word overflows. All additions
-// share one atomic operation in a loop: a CPU driver runs the invocations one by one at each atomic operation in the
-// code, even those that add nothing.
+// one spot: an addition to a word that is already half full is subtracted again, so no word overflows, unless more
+// invocations add at the same time than HALF_FULL leaves room for. All additions share one atomic operation in a loop:
+// a CPU driver runs the invocations one by one at each atomic operation in the code, even those that add nothing.
 void add(uint word, uvec4 steps) {
     do {
         // If the word was half full before the addition, the addition is undone in the next round. An addition of 0

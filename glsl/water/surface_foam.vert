@@ -1,7 +1,8 @@
 #version 460
 // Pass `surface_foam`, raster path: a quad around each sprite, in its plane (thesis Sec. 4.6.2; Listing A.10 builds it
-// in a geometry shader). The fragment shader cuts out the ellipse. If the plane is seen edge-on or crosses the near
-// plane, the quad is the bounding box of a sphere around the sprite.
+// in a geometry shader). The fragment shader cuts out the ellipse. If the plane is seen at a grazing angle, or the
+// sprite comes nearer to the eye's plane than a quarter of its centre's depth, the quad is the bounding box of a
+// sphere around the sprite.
 // Reads: sprites. Writes: corners, the sprite's plane, noise and light.
 
 #include "frame.glsl"

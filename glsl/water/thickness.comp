@@ -1,11 +1,11 @@
 #version 460
 // Pass `thickness`, compute path: sums the thickness of water of each texel in fixed point, so that the order of the
-// particles does not matter (thesis Sec. 4.8.1 blends; kernel.glsl). An addend is at most 2^26 (of a particle with
-// half the radius), so 64 of them overflow a word. Carries are counted in a second word, so any number of particles
-// may lie on one spot. A second dispatch handles texels with two layers of water: it sums the front layer and the
-// window, the water close to the boundary between the layers. Only the few spheres that are not well behind every
-// nearby boundary take part.
-// Reads: Counts, visible, scene depth (with foam: depths of scene and frontmost foam, from the foam's words),
+// particles does not matter (thesis Sec. 4.8.1 blends; kernel.glsl). An addend is at most 2^26 for a sphere (one with
+// half the radius), so 64 of them overflow a word; for an ellipsoid seen along its longest half-axis it is up to 64
+// times as large. Carries are counted in a second word, so any number of particles may lie on one spot. A second
+// dispatch handles texels with two layers of water: it sums the front layer and the window, the water close to the
+// boundary between the layers. Only the few spheres that are not well behind every nearby boundary take part.
+// Reads: Counts, visible, shares, scene depth (with foam: depths of scene and frontmost foam, from the foam's words),
 // boundaries, blocks. Writes: sums (UNITS of the amplitude).
 
 #include "frame.glsl"

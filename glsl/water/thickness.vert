@@ -1,7 +1,7 @@
 #version 460
 // Pass `thickness`, raster path: a disc for each particle, in the plane of its centre's depth (thesis Sec. 3.2.2,
 // 4.8.1).
-// Reads: visible. Writes: the disc's corners.
+// Reads: visible, shares. Writes: the disc's corners, amplitude and quadratic form.
 
 #include "frame.glsl"
 #include "sphere.glsl"

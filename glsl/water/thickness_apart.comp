@@ -26,9 +26,9 @@ void main() {
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
-    // The sums of all water and of the front layer are rounded sprite by sprite, so the second may exceed the first
-    // by some steps. In fixed point the two are exactly equal if no water is behind the boundary. `precise`: a fused
-    // multiply-add would keep what the products above round off, so equal sums would differ.
+    // In fixed point the two sums are equal if no water is behind the boundary. `precise`: a fused multiply-add would
+    // keep what the products above round off, so equal sums would differ. `max`: the sums come from two dispatches,
+    // whose addends a driver may round differently, so the front layer's sum may exceed that of all water.
     precise float back = all - front;
     back = max(back, 0.0);
     float found = boundaries[at];
