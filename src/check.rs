@@ -63,8 +63,22 @@ pub fn frame(
     let mask = own.and_then(|shore| shore.mask.as_ref());
     let shore = [(fields!("Frame.shore.surface"), surface), (fields!("Frame.shore.mask"), mask)];
     let shore = shore.into_iter().filter_map(|(fields, image)| Some((fields, image?)));
-    for (fields, image) in images.into_iter().chain(shadow).chain(fluid).chain(shore) {
+    let lent: Vec<_> = shadow.into_iter().chain(fluid).chain(shore).collect();
+    for (fields, image) in images.into_iter().chain(lent.iter().copied()) {
         self::image(fields, image)?;
+    }
+    for (i, ([before, after, _], image)) in lent.iter().enumerate() {
+        let Some((_, same)) = lent[..i].iter().find(|(_, other)| other.image == image.image) else {
+            continue;
+        };
+        for (field, one, other) in
+            [(*before, image.before, same.before), (*after, image.after, same.after)]
+        {
+            if one != other {
+                let why = format!("{one:?}, but another input is the same image with {other:?}");
+                return Err(Error::bad(field, why));
+            }
+        }
     }
     if frame.in_place() && !config.in_place {
         return Err(Error::bad(

@@ -250,18 +250,18 @@ impl Environment {
         config.whitewater.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }
 
-    /// Records a black environment, so that frames can sample it.
+    /// Records a black environment, so that frames can sample it. Frames in flight may still sample the one before.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
-        self.record_black(gpu, cmd, access::NOTHING);
+        self.record_black(gpu, cmd);
     }
 
-    fn record_black(&self, gpu: &Gpu, cmd: vk::CommandBuffer, before: Access) {
+    fn record_black(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         let change = |from, to| {
             let barriers: Vec<_> =
                 self.images().map(|image| access::image(image, from, to)).collect();
             gpu.barriers(cmd, &barriers, &[]);
         };
-        change(before, access::CLEAR);
+        change(SAMPLED.discarded(), access::CLEAR);
         for image in self.images() {
             gpu.clear_color(cmd, image, [0.0, 0.0, 0.0, 1.0]);
         }
@@ -298,7 +298,7 @@ impl Environment {
             matches!(source, EnvironmentSource::Equirectangular(map) if map.without_sun.is_some());
         let recorded = match source {
             EnvironmentSource::Black => {
-                self.record_black(gpu, cmd, SAMPLED.discarded());
+                self.record_black(gpu, cmd);
                 Ok(())
             }
             EnvironmentSource::Sky(sky) => self
@@ -306,7 +306,18 @@ impl Environment {
                 .and_then(|()| self.record_irradiance(gpu, cmd, descriptors)),
             EnvironmentSource::Equirectangular(map) => {
                 let gathered = map.without_sun.as_ref().unwrap_or(&map.image);
-                self.record_map(gpu, cmd, descriptors, (gathered, map))
+                let other = map.without_sun.as_ref();
+                let other = other.filter(|other| other.image != map.image.image);
+                let images = || [Some(&map.image), other].into_iter().flatten();
+                let change = |from: fn(&HostImage) -> Access, to: fn(&HostImage) -> Access| {
+                    let barrier = |image: &HostImage| {
+                        access::raw_image(image.image, image.aspect, from(image), to(image))
+                    };
+                    gpu.barriers(cmd, &images().map(barrier).collect::<Vec<_>>(), &[]);
+                };
+                change(|image| image.before, |_| COMPUTE_SAMPLED);
+                let recorded = self
+                    .record_map(gpu, cmd, descriptors, (gathered, map))
                     .and_then(|()| self.record_irradiance(gpu, cmd, descriptors))
                     .and_then(|()| match map.without_sun {
                         Some(_) => {
@@ -315,7 +326,9 @@ impl Environment {
                             )
                         }
                         None => Ok(()),
-                    })
+                    });
+                change(|_| COMPUTE_SAMPLED, |image| image.after);
+                recorded
             }
         };
         gpu.end_label(cmd);
@@ -374,7 +387,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Fills the faces from an image of the host.
+    /// Fills the faces from an image of the host, which compute shaders may sample.
     fn fill_with(
         &self,
         gpu: &Gpu,
@@ -384,16 +397,12 @@ impl Environment {
         (image, map): (&HostImage, &Equirectangular),
     ) -> Result<(), Error> {
         let size = self.cube.extent.width;
-        let before = access::raw_image(image.image, image.aspect, image.before, COMPUTE_SAMPLED);
-        gpu.barriers(cmd, &[before], &[]);
         let source = (1, Resource::Sampled(image.view, gpu.samplers.around));
         descriptors.bind(gpu, cmd, &self.equirect, &[target, source])?;
         let [east, up, _] = axes(map.up).map(|axis| axis.extend(0.0).to_array());
         let Equirectangular { scale, turn, .. } = *map;
         self.equirect.push(gpu, cmd, &EquirectPush { east, up, size, scale, turn });
         self.fill_cube(gpu, cmd);
-        let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
-        gpu.barriers(cmd, &[after], &[]);
         Ok(())
     }
 

@@ -104,6 +104,21 @@ pub fn sunlight(
     }
 }
 
+/// The other images that the host only lends for reading. If it hands in one image twice, such as the depth of its sea,
+/// that image has one use.
+fn others<'a>(frame: &'a Frame<'_>, uses: &Uses) -> Vec<(&'a HostImage, Access)> {
+    let shadow = frame.shadow.iter().map(|shadow| &shadow.image);
+    let shadow = shadow.map(|image| (image, shadow_use(image, uses.convolved)));
+    let mut all: Vec<(&HostImage, Access)> = Vec::new();
+    for (image, used) in shadow.chain(fluid(frame)).chain(shore(frame)) {
+        match all.iter_mut().find(|(known, _)| known.image == image.image) {
+            Some((_, known)) => *known = known.and(used),
+            None => all.push((image, used)),
+        }
+    }
+    all
+}
+
 /// The acquire barriers, one for each host image.
 pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
     let barrier =
@@ -113,11 +128,7 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     if !uses.in_place {
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
-    let shadow = frame.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
-    all.extend(
-        fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),
-    );
+    all.extend(others(frame, uses).into_iter().map(|(image, used)| barrier(image, used)));
     all
 }
 
@@ -130,10 +141,6 @@ pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     if !uses.in_place {
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
-    let shadow = frame.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
-    all.extend(
-        fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),
-    );
+    all.extend(others(frame, uses).into_iter().map(|(image, used)| barrier(image, used)));
     all
 }

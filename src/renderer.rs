@@ -49,6 +49,8 @@ struct SlotState {
     /// Whether an environment was recorded with the slot since the slot was collected. The next frame of the slot
     /// must then not free the descriptor sets, which the environment uses.
     has_environment: bool,
+    /// Whether the renderer's environment was recorded with the slot, which was not collected since.
+    surrounds: bool,
 }
 
 /// Draws particle water into a host's frame. Each view has a renderer of its own. The crate documentation states the
@@ -63,7 +65,7 @@ pub struct Renderer {
     /// Whether the host has called `record_setup`, which fills resources that are read before they are written. Frames
     /// are refused before.
     set_up: bool,
-    /// Whether an environment was recorded after it.
+    /// Whether an environment was recorded after it in a slot that has been collected since.
     surrounded: bool,
     water: Water,
     composite: Composite,
@@ -129,7 +131,8 @@ impl Renderer {
     /// every frame that is recorded after the set-up. The set-up belongs to no slot: its GPU work has to be complete
     /// before `resize` and `reconfigure`. This is certain once a frame that was recorded after it has finished.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
-        (self.set_up, self.surrounded) = (true, false);
+        self.set_up = true;
+        self.forget_environments();
         self.environment.record_setup(&self.gpu, cmd);
         if let Some(bubbles) = &self.bubbles {
             bubbles.record_setup(&self.gpu, cmd);
@@ -146,7 +149,8 @@ impl Renderer {
     /// [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a pattern.
     ///
     /// # Errors
-    /// No [`Config::shore`], a bad image or slot; Vulkan errors.
+    /// [`Error::NotRecorded`] without a recorded set-up; [`Error::BadInput`] without [`Config::shore`] or for a bad image
+    /// or slot; Vulkan errors.
     ///
     /// # Safety
     /// The conditions of [`record_environment`](Self::record_environment) hold. A foam texture counts as one of the
@@ -162,6 +166,9 @@ impl Renderer {
         let Some(shore) = &self.shore else {
             return Err(Error::bad("Config.shore", "None, but a web is given"));
         };
+        if !self.set_up {
+            return Err(Error::NotRecorded { call: "Renderer::record_setup" });
+        }
         self.retired.recorded(slot.0);
         self.slots[index].begin_environment(&self.gpu)?;
         shore.record_foam_texture(&self.gpu, cmd, &self.slots[index].descriptors, image)
@@ -192,7 +199,7 @@ impl Renderer {
         self.retired.recorded(slot.0);
         self.slots[index].begin_environment(&self.gpu)?;
         self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)?;
-        self.surrounded = true;
+        self.slots[index].surrounds = true;
         Ok(())
     }
 
@@ -423,9 +430,11 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before the first, and if the queue family has no
-    /// timestamps. It never waits: while a frame is still running, it returns the times of the previous one. Best read
-    /// after the slot's fence and before its next record.
+    /// Times of the passes in the slot's last finished frame. The list is empty until the slot's first frame has
+    /// finished, and always if the queue family has no timestamps. The call never waits: while a frame of the slot is
+    /// still running, it returns the times of the slot's frame before. Call it not before the slot's first frame was
+    /// submitted, and best after the wait for the slot's fence and before the next [`record`](Self::record) with the
+    /// slot.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -447,6 +456,7 @@ impl Renderer {
     pub unsafe fn collect(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.has_environment = false;
+            self.surrounded |= std::mem::take(&mut state.surrounds);
         }
         self.retired.collect(slot.0);
         self.gpu.bury();
@@ -461,6 +471,7 @@ impl Renderer {
     pub unsafe fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
+            state.surrounds = false;
         }
         // SAFETY: guaranteed by the caller.
         unsafe { self.collect(slot) };
@@ -525,7 +536,8 @@ impl Renderer {
         let same_shore = shore.is_none_or(|own| own.is_set_up_as(self.shore.as_ref()));
         let due = environment.is_some() || !same_bubbles || !same_shore;
         if due {
-            (self.set_up, self.surrounded) = (false, false);
+            self.set_up = false;
+            self.forget_environments();
         }
         self.config = *config;
         self.whole = true;
@@ -624,16 +636,22 @@ impl Renderer {
         self.gpu.offer(config.output_format).check(config)
     }
 
+    /// Makes an environment due.
+    fn forget_environments(&mut self) {
+        self.surrounded = false;
+        self.slots.iter_mut().for_each(|slot| slot.surrounds = false);
+    }
+
     /// Validates a frame.
     fn check_frame(&self, frame: &Frame<'_>) -> Result<Lens, Error> {
         if !self.whole {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
         }
         let lens = check::frame(frame, &self.config, &self.gpu.limits)?;
-        for (recorded, call) in [
-            (self.set_up, "Renderer::record_setup"),
-            (self.surrounded, "Renderer::record_environment"),
-        ] {
+        let surrounded = self.surrounded || self.slots.iter().any(|slot| slot.surrounds);
+        for (recorded, call) in
+            [(self.set_up, "Renderer::record_setup"), (surrounded, "Renderer::record_environment")]
+        {
             if !recorded {
                 return Err(Error::NotRecorded { call });
             }
@@ -711,6 +729,7 @@ impl SlotState {
             )?,
             framebuffer: None,
             has_environment: false,
+            surrounds: false,
         })
     }
 

@@ -113,9 +113,12 @@ impl SurfaceFoamState {
         cmd: vk::CommandBuffer,
         step: &SurfaceFoamStep<'_>,
     ) -> Result<(), Error> {
-        // If a step fails below, `abandon` has nothing to revert.
-        self.last = None;
+        // Earlier work of the slot is complete, so it cannot be taken back. A step in another slot still can, if this
+        // one is refused.
+        self.last.take_if(|(slot, _)| *slot == step.slot);
         self.check(step)?;
+        // If the step fails below, `abandon` has nothing to revert.
+        self.last = None;
         let slot = &mut self.slots[step.slot.0 as usize];
         slot.descriptors.reset(&self.gpu)?;
         self.gpu.begin_label(cmd, c"whitewater/step");
@@ -178,7 +181,8 @@ impl SurfaceFoamState {
     /// during the life of the state.
     pub fn foam(&self) -> Stream {
         let buffer = &self.classify.foam;
-        Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride: 8 }
+        let size = 8 * u64::from(self.config.max_particles);
+        Stream { buffer: buffer.handle, size, offset: 0, stride: 8 }
     }
 
     /// Times of the slot's last finished step, in the form of [`Renderer::timings`](crate::Renderer::timings).

@@ -11,7 +11,7 @@ use crate::error::{Error, VkContext};
 pub struct Buffer {
     /// The buffer.
     pub handle: vk::Buffer,
-    /// Requested size in bytes.
+    /// Bytes of its memory: at least the requested size.
     pub size: u64,
     /// `Some` until drop.
     memory: Option<Memory>,

@@ -15,8 +15,8 @@ pub struct DeviceFeatures {
     conditional_rendering: vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'static>,
 }
 
-// SAFETY: before `chain`, which borrows the structures permanently, nothing is chained, so they contain no pointers
-// that another thread could see.
+// SAFETY: `chain` borrows the structures mutably for as long as its result lives, and chains them anew, so no pointer of
+// an earlier chain is ever read, on whichever thread.
 unsafe impl Send for DeviceFeatures {}
 // SAFETY: as above.
 unsafe impl Sync for DeviceFeatures {}
@@ -27,6 +27,10 @@ impl DeviceFeatures {
     /// itself, or the single-feature structures that VkPhysicalDeviceVulkan12Features combines, does not call this.
     /// It fills its own structures with [`EnabledFeatures::set_core`] and the similar functions.
     pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
+        // An earlier chain of these structures is no longer valid.
+        self.vulkan12.p_next = std::ptr::null_mut();
+        self.synchronization2.p_next = std::ptr::null_mut();
+        self.conditional_rendering.p_next = std::ptr::null_mut();
         let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
         if self.synchronization2.synchronization2 == vk::TRUE {
             info = info.push_next(&mut self.synchronization2);
@@ -125,5 +129,39 @@ impl EnabledFeatures {
 fn turn_on(wanted: bool, feature: &mut vk::Bool32) {
     if wanted {
         *feature = vk::TRUE;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A second chain of the same structures is as long as the first, and does not go round in circles.
+    #[test]
+    fn features_can_be_chained_again() {
+        let enabled = EnabledFeatures::default().with(|it| {
+            it.synchronization2 = true;
+            it.conditional_rendering = true;
+        });
+        let mut features = enabled.device_features();
+        for _ in 0..3 {
+            let info = features.chain(vk::DeviceCreateInfo::default());
+            let mut next = info.p_next.cast::<vk::BaseInStructure<'_>>();
+            let mut kinds = Vec::new();
+            while !next.is_null() && kinds.len() < 9 {
+                // SAFETY: a chain of live structures.
+                let structure = unsafe { &*next };
+                kinds.push(structure.s_type);
+                next = structure.p_next;
+            }
+            kinds.sort();
+            let mut wanted = vec![
+                vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                vk::StructureType::PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+                vk::StructureType::PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT,
+            ];
+            wanted.sort();
+            assert_eq!(kinds, wanted);
+        }
     }
 }

@@ -31,6 +31,9 @@ pub struct Timer {
     names: Vec<&'static str>,
     /// Whether the scopes of the last recorded frame have not been read yet.
     pending: bool,
+    /// First timestamp of the frame that was read last. As long as it is in the pool, the GPU has not begun the next
+    /// frame of the slot.
+    stale: Option<u64>,
     results: Vec<Timing>,
 }
 
@@ -52,6 +55,7 @@ impl Timer {
             pool,
             names: Vec::with_capacity(MAX_SCOPES as usize),
             pending: false,
+            stale: None,
             results: Vec::with_capacity(MAX_SCOPES as usize),
         })
     }
@@ -116,10 +120,11 @@ impl Timer {
                 vk::QueryResultFlags::TYPE_64,
             )
         };
-        if read.is_err() {
+        if read.is_err() || self.stale == Some(raw[0]) {
             return;
         }
         self.pending = false;
+        self.stale = Some(raw[0]);
         let mask = u64::MAX >> (64 - gpu.timestamp_bits.min(64));
         let period = f64::from(gpu.limits.timestamp_period);
         let span = |from: u64, to: u64| (to.wrapping_sub(from) & mask) as f64 * period;

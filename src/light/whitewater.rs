@@ -211,7 +211,8 @@ impl Whitewater {
         particles: &WhitewaterParticles,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let unread = Resource::buffer(&self.words);
+        // No larger than every device can bind.
+        let unread = Resource::buffer(&self.arguments);
         let group_size = self.splat.group_size();
         let (counting, count) = self.chunks.counting(Some(particles), group_size, unread);
         let resources = [(1, count), (2, Resource::buffer(&self.arguments))];

@@ -90,10 +90,10 @@ pub enum Occlusion {
     /// most [`WhitewaterSettings::max_samples`]. All pixels use the same sample positions in the unit sphere.
     Reference,
     /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes
-    /// `min(max_samples, 320) / 16` samples per sphere, rounded down to an even number from 2 to 20, whatever the
-    /// sphere's size ([`WhitewaterSettings::max_samples`]). Samples come in opposite pairs: where everything behind a
-    /// plane through the sphere's centre is solid, each pixel by itself finds exactly half of its samples occluded.
-    /// Default.
+    /// `min(max_samples, 320) / 16` samples per sphere, rounded down to an even number but at least 2 (so at most
+    /// 20), whatever the sphere's size ([`WhitewaterSettings::max_samples`]). Samples come in opposite pairs: a plane
+    /// through the sphere's centre has exactly half of each pixel's samples behind it, whatever its slope. (How much
+    /// such a sample is occluded falls with its distance behind the plane.) Default.
     Fast,
 }
 
@@ -129,7 +129,8 @@ pub enum Submerged {
     },
 }
 
-/// Depth difference between an occluder and a point behind it at which the occlusion of the point has fallen to 0.
+/// Reach of the ambient occlusion on whitewater: the depth difference between an occluder and a point behind it from
+/// which on the occluder does not darken the point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum OcclusionReach {

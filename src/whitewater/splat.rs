@@ -127,6 +127,12 @@ impl Sprites {
     pub fn new(gpu: &Gpu, config: &Config, whitewater: &WhitewaterConfig) -> Result<Self, Error> {
         let chunks = Chunks::new(&gpu.limits, whitewater);
         let chosen = way(gpu, whitewater);
+        if chosen == WhitewaterSplat::Compute64 && !gpu.enabled.buffer_int64_atomics {
+            return Err(Error::Missing {
+                what: "shaderBufferInt64Atomics and shaderInt64".into(),
+                why: "WhitewaterSplat::Compute64 needs them enabled; choose Compute".into(),
+            });
+        }
         let targets = Targets::new(gpu, config, chosen)?;
         let covering = |shader, constants: &[(u32, u32)]| {
             Covering::new(gpu, "whitewater/splat/large", shader, constants, whitewater)

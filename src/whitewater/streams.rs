@@ -102,8 +102,9 @@ impl Chunks {
     }
 
     /// Returns the push constants from which a shader computes the number of particles in each chunk, and the buffer
-    /// in which it finds the count on the GPU. If the host gives the count instead, that buffer is `unread` (any
-    /// buffer). `group_size` is the number of particles per workgroup, 0 if quads are drawn instead of dispatched.
+    /// from which it reads the total number if that is only known on the GPU. If the host gives the number, the
+    /// shader reads no buffer, and `unread`, any buffer that can be bound in its place, is returned. `group_size` is
+    /// the number of particles per workgroup, 0 if quads are drawn instead of dispatched.
     pub fn counting(
         &self,
         particles: Option<&WhitewaterParticles>,
@@ -178,8 +179,9 @@ const ROOM: u64 = 16_384;
 /// their indices.
 const LIST: u64 = 4 * (4 + ROOM);
 
-/// A shader over the pixels of each particle (glsl/include/whitewater_cover.glsl): one invocation per particle, or
-/// a group per host packet; then a group per large particle.
+/// A shader over the pixels of each particle (glsl/include/whitewater_cover.glsl), in two dispatches per chunk. The
+/// first has one invocation per particle or, if the host hands in `Packets` of particles, one workgroup per packet;
+/// it lists particles with more than 256 pixels. The second has one workgroup for each particle in this list.
 pub struct Covering {
     /// Pipelines of the shader: first those for default particle shapes, then those for other shapes or the paper's
     /// falloff behind the water's surface.

@@ -265,11 +265,13 @@ const FLOAT: f64 = 4.0e-6;
 fn potentials_are_the_twins() {
     let gpu = Gpu::shared();
     let mut making = Making::new(&gpu, &config());
+    let twin_settings = twins(&settings());
+    let unit = twin::unit(&twin_settings);
     let (mut surface, mut crests, mut trapped, mut sure, mut all) = (0, 0, 0, 0, 0);
     for number in 0..4 {
         let fluid = sea(number);
         let made = making.step(&fluid, &settings(), 0.02, number);
-        let expected = twin::potentials(&fluid, SPACING);
+        let expected = twin::potentials(&fluid, &twin_settings);
         assert_eq!(made.counts[1] as usize, fluid.ids.len());
         assert_eq!(made.counts[2] as usize, expected.iter().flatten().count());
         for (i, (found, expected)) in made.potentials.iter().zip(&expected).enumerate() {
@@ -284,7 +286,7 @@ fn potentials_are_the_twins() {
             sure += 1;
             let [air, crest, energy, neighbours] = found.map(f64::from);
             assert_eq!(neighbours, f64::from(expected.neighbours), "neighbours of {i}");
-            let off = 0.5 * neighbours * twin::unit(SPACING) + FLOAT * (1.0 + expected.trapped_air);
+            let off = 0.5 * neighbours * unit + FLOAT * (1.0 + expected.trapped_air);
             assert!((air - expected.trapped_air).abs() <= off, "{i}: {air}, {expected:?}");
             assert!((energy - expected.energy).abs() <= FLOAT * expected.energy, "energy of {i}");
             let off = 0.5 * f64::from(expected.crest_terms) * twin::STEP + expected.crest_off;
@@ -297,6 +299,81 @@ fn potentials_are_the_twins() {
     }
     assert!(10 * sure > 8 * all, "{sure} of {all} are told by more than rounding");
     assert!(surface > 300 && crests > 60 && trapped > 300, "{surface} {crests} {trapped}");
+}
+
+/// The sea at a step, with fast water, in a unit of 1/`units` metre. With a power of two no number
+/// is rounded.
+fn sea_in(units: f32, number: u32) -> Fluid {
+    let mut fluid = sea(number);
+    for position in &mut fluid.positions {
+        *position = position.map(|v| units * v);
+    }
+    for velocity in &mut fluid.velocities {
+        *velocity = velocity.map(|v| 4.0 * units * v);
+    }
+    fluid
+}
+
+/// These settings in a unit of 1/`units` metre.
+fn settings_in(units: f32) -> GeneratorSettings {
+    let scaled = |limits: PotentialRange, by: f32| PotentialRange {
+        min: by * limits.min,
+        max: by * limits.max,
+    };
+    settings().with_gravity(units, [0.0, 1.0, 0.0]).with(|it| {
+        it.spacing *= units;
+        it.trapped_air = scaled(it.trapped_air, units);
+        it.energy = scaled(it.energy, units * units);
+        it.bounds = it.bounds.map(|corners| corners.map(|corner| corner.map(|v| units * v)));
+    })
+}
+
+/// Water in metres and the same water in a unit near the millimetre make the same whitewater. With
+/// a limit of speeds that did not scale, the fastest water would be slower in the small unit.
+#[test]
+fn the_unit_of_length_is_no_matter() {
+    const UNITS: f32 = 1024.0;
+    let gpu = Gpu::shared();
+    let [mut metres, mut small] = [(); 2].map(|()| Making::new(&gpu, &config()));
+    let longer = f64::from(UNITS);
+    let in_small = |particle: &Particle| Particle {
+        position: longer * particle.position,
+        velocity: longer * particle.velocity,
+        ..*particle
+    };
+    for number in 0..6 {
+        let [one, other] = [(&mut metres, 1.0), (&mut small, UNITS)].map(|(making, units)| {
+            making.step(&sea_in(units, number), &settings_in(units), 0.03, number)
+        });
+        assert_eq!(one.counts, other.counts, "step {number}");
+        for (i, (one, other)) in one.potentials.iter().zip(&other.potentials).enumerate() {
+            let [air, crest, energy, neighbours] = *one;
+            let expected = [UNITS * air, crest, UNITS * UNITS * energy, neighbours];
+            assert_eq!(*other, expected, "potentials of {i} in step {number}");
+        }
+        let expected: Vec<_> = one.particles.iter().map(in_small).collect();
+        assert_eq!(other.particles, expected, "step {number}");
+    }
+    assert!(metres.made(0).living().len() > 200);
+}
+
+/// Without gravity the limit of speeds is that of 9.81 scene units per second squared. With any
+/// gravity that is finite the potentials are, too.
+#[test]
+fn potentials_need_no_gravity() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &config());
+    let fluid = sea(0);
+    let mut potentials = |gravity: [f32; 3]| {
+        let settings = settings().with(|it| it.gravity = gravity);
+        making.step(&fluid, &settings, 0.0, 0).potentials
+    };
+    assert_eq!(potentials([0.0; 3]), potentials([0.0, -9.81, 0.0]));
+    assert_eq!(potentials([0.0; 3]), potentials([9.81, 0.0, 0.0]));
+    for gravity in [[f32::MAX; 3], [1.0e-40, 0.0, 0.0]] {
+        let all = potentials(gravity);
+        assert!(all.iter().flatten().all(|v| v.is_finite()), "{gravity:?}");
+    }
 }
 
 fn config() -> GeneratorConfig {
@@ -337,7 +414,7 @@ fn every_step_is_the_twins() {
                 taken[slot] = loose && made.particles[slot].id == particle.id;
                 continue;
             }
-            let water = twin::carried(particle.position, &fluid, SPACING);
+            let water = twin::carried(particle.position, &fluid, &sure);
             // The water does not carry spray.
             let off = if after.kind == twin::SPRAY { 0.0 } else { water.off };
             assert_same(&format!("{number}/{slot}"), &made.particles[slot], &after, off, dt.into());
@@ -351,7 +428,7 @@ fn every_step_is_the_twins() {
             .collect();
         let mut places = Vec::new();
         let mut explained = 0;
-        for (i, p) in twin::potentials(&fluid, SPACING).iter().enumerate() {
+        for (i, p) in twin::potentials(&fluid, &sure).iter().enumerate() {
             let Some(p) = p else { continue };
             let wanted = twin::wanted(p, &sure, dt);
             let count = |wanted: f64| twin::count(wanted.max(0.0), &sure, fluid.ids[i], number);
@@ -673,6 +750,48 @@ fn states_outlive_what_is_discarded() {
     making.generator().abandon(Slot(0));
     let left = making.step(&Fluid::default(), &settings, 1.0e-4, 2).living().len();
     assert!(left > 0 && left <= alive, "{left} of {alive}");
+}
+
+/// A step that is refused leaves the step before it, in another slot, to `abandon`.
+#[test]
+fn a_refused_step_does_not_keep_the_one_before() {
+    let gpu = Gpu::shared();
+    let settings = settings();
+    let mut before = Making::new(&gpu, &config());
+    let size = before.generator().size() as usize;
+    before.restore(&vec![0x5a; size]);
+    drop(before);
+    let mut making = Making::new(&gpu, &config());
+    let fluid = sea(0);
+    let data = making
+        .stub
+        .data(bytemuck::cast_slice(&fluid.positions), vk::BufferUsageFlags::STORAGE_BUFFER);
+    let good = GeneratorStep::new(
+        Slot(0),
+        [stream(&data, 0, 12), stream(&data, 0, 12)],
+        Count::Cpu(fluid.ids.len() as u32),
+        0.1,
+        &settings,
+    )
+    .with(|it| {
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
+    let bad = good.with(|it| {
+        it.slot = Slot(1);
+        it.dt = f32::NAN;
+    });
+    making.stub.wait(0);
+    let cmd = making.stub.begin(0);
+    let generator = making.generator.as_mut().expect("only drop takes it");
+    // SAFETY: cmd is recording and never submitted.
+    unsafe {
+        generator.record_step(cmd, &good).expect("a step");
+        generator.record_step(cmd, &bad).expect_err("no time");
+    }
+    generator.abandon(Slot(0));
+    making.steps = 1;
+    assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
 }
 
 #[test]

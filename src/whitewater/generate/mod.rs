@@ -121,8 +121,9 @@ impl Generator {
         step: &GeneratorStep<'_>,
         snapshot: bool,
     ) -> Result<(), Error> {
-        // If a step fails below, `abandon` has nothing to revert.
-        self.last = None;
+        // Earlier work of the slot is complete, so it cannot be taken back. A step in another slot still can, if this
+        // one is refused.
+        self.last.take_if(|(slot, _)| *slot == step.slot);
         self.check(step)?;
         self.last = Some((step.slot, self.fresh));
         let slot = &mut self.slots[step.slot.0 as usize];
@@ -203,13 +204,13 @@ impl Generator {
         self.passes.size()
     }
 
-    /// Records a copy of the state after the last step into a buffer of the host. After
+    /// Records a copy of the state after the last recorded step into `to`, a buffer that the host owns. After
     /// [`record_restore`](Self::record_restore), in this run or in another one with the same configuration, the
     /// sequence continues from this state as if it had not been interrupted.
     ///
-    /// # Safety
-    /// The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4)
-    /// on, and no pending access. The conditions of [`record_step`](Self::record_step) hold, too.
+    /// # Safety The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a
+    /// multiple of 4) on, and no pending access (a barrier before this copy suffices). The conditions of
+    /// [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         // `fresh` stays, so that the next step clears the state even if `cmd` is discarded.
         if self.fresh {
@@ -218,12 +219,12 @@ impl Generator {
         self.passes.record_copy(&self.gpu, cmd, (to, offset), true);
     }
 
-    /// Records a copy of a state that [`record_save`](Self::record_save) has saved, from a buffer of the host back into
-    /// the generator.
+    /// Records a copy into the generator from `from`, a buffer that the host owns and in which
+    /// [`record_save`](Self::record_save) has saved a state.
     ///
-    /// # Safety
-    /// The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
-    /// and no pending writes. The conditions of [`record_step`](Self::record_step) hold, too.
+    /// # Safety The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple
+    /// of 4) on, and no pending writes (a barrier before this copy suffices). The conditions of
+    /// [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
         // A step before is no longer one to take back.
         (self.fresh, self.last) = (false, None);

@@ -110,6 +110,7 @@ struct Push {
     most: u32,
     capacity: u32,
     cells: f32,
+    gravity: f32,
 }
 shader::assert_layout!(
     shader::GENERATE_CREST_COMP,
@@ -144,8 +145,20 @@ shader::assert_layout!(
         most,
         capacity,
         cells,
+        gravity,
     }
 );
+
+/// The acceleration that sets the shaders' step of speeds: the length of gravity, or, without gravity, 9.81 scene units
+/// per second squared. Its product with the spacing stays in a range in which the fixed-point sums are finite.
+fn step_gravity(gravity: [f32; 3], spacing: f32) -> f32 {
+    // Squares are exact in double precision, so gravity along an axis keeps its bits.
+    let [x, y, z] = gravity.map(f64::from);
+    let length = (x * x + y * y + z * z).sqrt();
+    let length = if length > 0.0 { length } else { f64::from(9.81_f32) };
+    let spacing = f64::from(spacing);
+    length.clamp(1.0e-24 / spacing, 1.0e30 / spacing).min(f64::from(f32::MAX)) as f32
+}
 
 impl Push {
     fn new(step: &GeneratorStep<'_>, fluid: u32, buckets: u32, most: u32) -> Self {
@@ -183,6 +196,7 @@ impl Push {
             most,
             capacity: fluid,
             cells: 0.5 / s.spacing,
+            gravity: step_gravity(s.gravity, s.spacing),
         }
     }
 }
@@ -214,7 +228,8 @@ pub struct Buffers {
     normals: Buffer,
     /// Emission rate of each particle, relative to the maximum.
     rates: Buffer,
-    /// Potentials in the order of the step's particles: trapped air, wave crest, energy, number of neighbours.
+    /// For each fluid particle, in the order of the host's streams (not in the grid's order), four `f32`: potentials
+    /// of trapped air, wave crest and energy, and number of neighbours.
     pub potentials: Buffer,
     /// Number of whitewater particles that each fluid particle emits, later replaced by its exclusive prefix sum.
     wanted: Buffer,
@@ -620,5 +635,24 @@ impl Passes {
     /// Bytes of buffers.
     pub fn memory(&self) -> u64 {
         self.buffers.all().iter().map(|own| own.size).sum::<u64>() + self.scan.memory()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::step_gravity;
+
+    #[test]
+    fn the_step_of_speeds_goes_by_gravity() {
+        assert_eq!(step_gravity([0.0, -9.81, 0.0], 0.05), 9.81);
+        assert_eq!(step_gravity([-0.0, -0.0, 9810.0], 50.0), 9810.0);
+        assert_eq!(step_gravity([0.0, -3.0, 4.0], 0.05), 5.0);
+        assert_eq!(step_gravity([0.0; 3], 0.05), 9.81);
+        for (gravity, spacing) in
+            [(f32::MAX, 1.0e12_f32), (f32::MAX, 1.0e-18), (1.0e-40, 1.0e-18), (1.0e-40, 1.0e12)]
+        {
+            let product = step_gravity([gravity; 3], spacing) * spacing;
+            assert!((0.9e-24..1.1e30).contains(&product), "{gravity}, {spacing}: {product}");
+        }
     }
 }

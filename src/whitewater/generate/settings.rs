@@ -68,8 +68,9 @@ pub struct GeneratorSettings {
     /// speed, weighted by a kernel of the distance and by a factor from 0 (the two move straight apart) to 2 (straight
     /// towards each other).
     pub trapped_air: PotentialRange,
-    /// Range of the wave-crest potential (Sec. 3.1.2) over which its emission rises from none to the full rate. The
-    /// potential measures convex curvature, has no unit, and counts only where the surface moves outwards.
+    /// Range of the wave-crest potential (Sec. 3.1.2) over which the emission from wave crests rises from none to the
+    /// full rate. The potential measures convex curvature, has no unit, and counts only where the surface moves
+    /// outwards.
     pub wave_crest: PotentialRange,
     /// Range of the energy potential (Sec. 3.1.3), in (scene units per second)²: half the squared speed, which is the
     /// kinetic energy per mass. Over this range a factor on the emission from both other potentials rises from 0 to
@@ -86,7 +87,9 @@ pub struct GeneratorSettings {
     pub min_lifetime: f32,
     /// Maximum lifetime of foam, seconds, [min_lifetime, ∞), default 5.
     pub max_lifetime: f32,
-    /// Acceleration, scene units per second squared, default (0, −9.81, 0).
+    /// Acceleration, scene units per second squared, default (0, −9.81, 0). Its length also sets the range of the
+    /// fixed-point sums over neighbours: no neighbour counts with more than 512 √(length ·
+    /// [`spacing`](Self::spacing)) scene units per second. A length of 0 counts as 9.81 there.
     pub gravity: [f32; 3],
     /// Acceleration of a bubble against gravity, as a multiple of [`gravity`](Self::gravity), [0, 64], default 2 (k_b
     /// of Eq. 7). It is the net acceleration, apart from [`drag`](Self::drag): gravity does not act on bubbles

@@ -6,7 +6,7 @@ use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Kernels, Shading, Smoothing};
 use whitewater::{
     Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
-    SurfaceFoamStateConfig,
+    SurfaceFoamStateConfig, WhitewaterConfig, WhitewaterSplat,
 };
 
 use crate::support::device::Gpu;
@@ -100,6 +100,8 @@ fn an_old_device_says_what_it_lacks() {
     };
     assert!(lacks(config.with(|it| it.surface_foam = true)).contains("storage"));
     assert!(lacks(config.with(|it| it.motion = true)).contains("storage"));
+    let atomics = WhitewaterConfig::new(16).with(|it| it.splat = Some(WhitewaterSplat::Compute64));
+    assert!(lacks(config.with(|it| it.whitewater = Some(atomics))).contains("Int64"));
     assert!(lacks(config.with(|it| it.composite = Some(Shading::Compute))).contains("storage"));
     let renderer = Renderer::new(&context, &config).expect("water");
     // SAFETY: nothing was submitted.
@@ -526,6 +528,22 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
+    // A frame that is recorded and not yet executed does not take the times of the one before for its own.
+    let before = rig.renderer().timings(Slot(0)).to_vec();
+    let fewer = config.with(|it| it.spray = false);
+    rig.renderer().reconfigure(&fewer).expect("reconfigure");
+    rig.config = fewer;
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording, the slot was waited for, and the handles live until it is waited for again.
+    unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+    assert_eq!(rig.renderer().timings(Slot(0)), before, "it has not begun");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();
+    assert!(names.len() + 1 == before.len() && !names.contains(&"spray"), "{names:?}");
     let mut rig = Rig::new(&gpu, &config.with(|it| it.light_map_size = Some(16)));
     sunny(&rig, &mut shot);
     rig.draw(&shot);

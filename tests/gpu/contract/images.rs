@@ -2,15 +2,16 @@
 //! and access.
 
 use ash::vk;
+use whitewater::shore::ShoreConfig;
 use whitewater::water::{Kernels, Shading};
-use whitewater::{Access, Count, Particles, Recorded, WhitewaterParticles};
+use whitewater::{Access, Count, Particles, Recorded, Shore, Surface, WhitewaterParticles};
 use whitewater::{WhitewaterConfig, WhitewaterSplat};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::{COLOR, HOST_WRITE};
 use crate::support::rig::{OUTPUT, Rig, Shot, config, extent, stream};
-use crate::support::scenes::Lens;
+use crate::support::scenes::{self, Lens};
 
 use super::{sunny, water};
 
@@ -224,4 +225,43 @@ fn particles_that_the_device_writes_are_waited_for() {
         let found = rig.read(&frame.output, &recorded);
         compare::same_color("written-by-device", &found.output, &expected.output);
     }
+}
+
+/// The depth of the host's sea serves whitewater and the shore at once: the image changes its layout once.
+#[test]
+fn one_image_may_be_two_inputs() {
+    let gpu = Gpu::shared();
+    let size = extent(48, 32);
+    let config = config(size).with(|it| {
+        it.whitewater = Some(WhitewaterConfig::new(500));
+        it.shore = Some(ShoreConfig::default());
+    });
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut shot = water(size, Lens::Standard);
+    let (_, sea) = rig.scene(&shot);
+    let state = Access::new(
+        vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
+        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
+        vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+    );
+    rig.stub.run(|cmd| rig.stub.barrier(cmd, sea.image, sea.aspect, sea.state, state));
+    let mut image = sea.host_image();
+    (image.before, image.after) = (state, state);
+    let points = scenes::world(&shot.camera, &scenes::cloud(5, 40, 2.0, 5.0));
+    let foam = rig.whitewater(&whitewater::headless::Whitewater {
+        positions: &points,
+        kinds: None,
+        radii: None,
+        ages: None,
+        ids: None,
+    });
+    let foam = foam.particles().with(|it| it.fluid_depth = Some(image));
+    let shore = |image| Shore::new(0.0).with(|it| it.surface = Some(Surface::Depth(image)));
+    shot.shore = Some(shore(image));
+    let cloud = rig.particles(&shot);
+    rig.draw_whitewater(&shot, &cloud.particles(), Some(foam));
+    let other = Access { stage: vk::PipelineStageFlags2::ALL_COMMANDS, ..state };
+    shot.shore = Some(shore(image.with(|it| it.after = other)));
+    let error = rig.refused(&shot, Some(foam));
+    assert!(error.contains("Frame.shore.surface.after"), "{error}");
 }

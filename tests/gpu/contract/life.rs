@@ -1,6 +1,7 @@
 //! Lifetime of a renderer: resize, reconfigure, an abandoned frame, a plain drop and `destroy`.
 
 use ash::vk;
+use whitewater::bubbles::BubbleConfig;
 use whitewater::water::{Convolution, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Error, Slot};
 
@@ -259,6 +260,17 @@ fn what_was_not_recorded_is_named() {
         fresh.record_environment(cmd, Slot(0), &black).expect("black");
         fresh.record(cmd, &frame).expect("a frame");
     }
+    rig.stub.throw_away(0);
+    let cmd = rig.stub.begin(0);
+    // SAFETY: the first command buffer is never submitted, the second is, once.
+    unsafe {
+        fresh.abandon(Slot(0));
+        let lost = fresh.record(cmd, &frame).err();
+        assert_eq!(call(lost), "Renderer::record_environment", "it was thrown away");
+        fresh.record_setup(cmd);
+        fresh.record_environment(cmd, Slot(0), &black).expect("black");
+        fresh.record(cmd, &frame).expect("a frame");
+    }
     rig.stub.end(0);
     rig.stub.wait(0);
     let nothing = whitewater::Recorded::default();
@@ -266,4 +278,33 @@ fn what_was_not_recorded_is_named() {
     crate::support::compare::same_color("recorded", &found, &expected);
     // SAFETY: the slot was waited for.
     unsafe { fresh.destroy() };
+}
+
+/// The set-up that a reconfiguration makes due clears the environment only when the frame in flight has sampled it.
+#[test]
+fn a_set_up_waits_for_the_frame_in_flight() {
+    let gpu = Gpu::shared();
+    let shot = water(extent(64, 48), Lens::Standard);
+    let plain = config(shot.size);
+    let bubbles = plain.with(|it| {
+        it.bubbles = Some(BubbleConfig::new(64).with(|it| {
+            it.variants = 2;
+            it.bubbles = 32;
+            it.map_size = 32;
+        }));
+    });
+    let mut rig = Rig::lit(&gpu, &plain, 2);
+    let expected = rig.draw(&shot);
+    let flight = launch(&mut rig, 0, &shot, expected);
+    assert!(rig.renderer().reconfigure(&bubbles).expect("reconfigure"), "a set-up is due");
+    rig.config = bubbles;
+    let cmd = rig.stub.begin(1);
+    // SAFETY: submitted at once, before every later frame.
+    unsafe { rig.renderer().record_setup(cmd) };
+    rig.stub.end(1);
+    rig.stub.wait(0);
+    rig.stub.wait(1);
+    compare::same_color("set-up", &output_of(&rig, &flight), &flight.expected.output);
+    rig.collect(Slot(0));
+    rig.collect(Slot(1));
 }

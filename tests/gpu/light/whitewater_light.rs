@@ -146,8 +146,9 @@ fn the_map_of_whitewater_particles_is_the_twins() {
                 compare::between(&name, &found.map(|t| t[c]), bounds);
                 // The bounds may be as far apart as the rounding to half precision and a hundredth
                 // of a texel allow.
+                let unit = light.whitewater_unit();
                 let close = bounds.low.data.iter().zip(&bounds.high.data).filter(|(a, b)| {
-                    **b - **a < 4e-3 * b.abs() + [2e-3, 0.01 * light.texel(), 0.1][c]
+                    **b - **a < 4e-3 * b.abs() + [2e-3, 0.01 * light.texel() / unit, 0.1 / unit][c]
                 });
                 let (close, all) = (close.count(), bounds.low.data.len());
                 assert!(close * 100 > 95 * all, "{name}: {close} of {all}, idle bounds");
@@ -156,6 +157,32 @@ fn the_map_of_whitewater_particles_is_the_twins() {
             assert!(some * 8 > found.data.len(), "{texels}-{i}: {some} texels have something");
         }
     }
+}
+
+/// Positions that half precision does not reach in scene units, as in a scene in millimetres: the
+/// map is still the twin's.
+#[test]
+fn the_map_of_a_wide_region_is_the_twins() {
+    let gpu = Gpu::shared();
+    let config = whitewater_config(casting(64), 4096);
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut shot = Shot::new(SIZE, Lens::Standard, 0.2, &[]);
+    shot.settings.light.direction = [0.0, 1.0, 0.0];
+    shot.light_volume = Some(LightVolume { center: [0.0; 3], radius: 4.0e5 });
+    let mut random = Random(6);
+    let positions = (0..200).map(|_| [0; 3].map(|_| random.between(-3.0e5, 3.0e5))).collect();
+    let cloud = Cloud::mixed(water(shot), positions, 3.0e4);
+    let drawn = cloud.draw(&mut rig);
+    let light = twin(&cloud.case.shot, &config);
+    let front = maps(&drawn).front;
+    let bounds = light.whitewater(&cloud.particles(), &cloud.twin_settings(), front);
+    for (c, bounds) in bounds.iter().enumerate() {
+        let name = format!("light-whitewater-wide-{c}");
+        compare::between(&name, &map_of(&drawn).map(|t| t[c]), bounds);
+    }
+    let far = map_of(&drawn).data.iter().map(|t| f64::from(t[1].abs()) * light.whitewater_unit());
+    let far = far.filter(|far| far.is_finite() && *far > 65_504.0).count();
+    assert!(far > 300, "{far} texels have whitewater so far off");
 }
 
 /// The scene under spray has the light that the maps say, with and without water and its surface
@@ -485,7 +512,8 @@ fn packets_cast_as_single_particles() {
 }
 
 /// The device binds only small ranges, so particles and map are processed in pieces. This does not
-/// change the result. The particles come as interleaved records with a count on the GPU.
+/// change the result. The particles come as interleaved records, with a count on the GPU or
+/// on the CPU.
 #[test]
 fn pieces_do_not_show() {
     let mut gpu = Gpu::own();
@@ -513,24 +541,28 @@ fn pieces_do_not_show() {
         let (data, number) = (rig.stub.data(&bytes, usage), (count as u32).to_ne_bytes());
         let number = rig.stub.data(&number, usage);
         let at = |offset: u64| -> Option<Stream> { Some(stream(&data, 20 + offset, 28)) };
-        let particles = WhitewaterParticles::new(
-            stream(&data, 20, 28),
-            Count::Gpu { buffer: number.buffer, offset: 0 },
-        )
-        .with(|it| {
-            it.kinds = at(12);
-            it.radii = at(16);
-            it.ages = at(20);
-            it.ids = at(24);
-            it.before = HOST_WRITE;
-            it.after = HOST_WRITE;
-        });
-        drop(spy::take_bound());
-        let drawn = cloud.draw_with(&mut rig, Some(particles));
-        let bound = spy::take_bound();
-        assert!(bound.iter().any(|bound| bound.offset > 0), "all is in one piece");
-        compare::same_color(&format!("pieces-{range}"), map_of(&drawn), map_of(&expected));
-        compare::same_color(&format!("pieces-{range}-output"), &drawn.output, &expected.output);
+        let counts = [Count::Gpu { buffer: number.buffer, offset: 0 }, Count::Cpu(count as u32)];
+        for counted in counts {
+            let particles = WhitewaterParticles::new(stream(&data, 20, 28), counted).with(|it| {
+                it.kinds = at(12);
+                it.radii = at(16);
+                it.ages = at(20);
+                it.ids = at(24);
+                it.before = HOST_WRITE;
+                it.after = HOST_WRITE;
+            });
+            drop(spy::take_bound());
+            let drawn = cloud.draw_with(&mut rig, Some(particles));
+            let bound = spy::take_bound();
+            assert!(bound.iter().any(|bound| bound.offset > 0), "all is in one piece");
+            // 16 bytes per texel of the map.
+            let words = spy::buffers_of_size(16 * 64 * 64);
+            assert!(!words.is_empty());
+            let whole = |b: &&spy::Bound| b.range == vk::WHOLE_SIZE && words.contains(&b.buffer);
+            assert!(!bound.iter().any(|b| whole(&b)), "the map's words are bound as a whole");
+            compare::same_color(&format!("pieces-{range}"), map_of(&drawn), map_of(&expected));
+            compare::same_color(&format!("pieces-{range}-output"), &drawn.output, &expected.output);
+        }
     }
 }
 
@@ -659,10 +691,11 @@ fn many_on_one_spot_take_all_the_sun() {
     let light = twin(&cloud.case.shot, &casting(64));
     let far = light.place(wide([3.1, 1.2, 0.2])).1 + 0.3;
     for [_, middle, spread, _] in map_of(&drawn).data.iter().filter(|t| t[0] > 0.0) {
+        let [middle, spread] = [middle, spread].map(|v| f64::from(*v) * light.whitewater_unit());
         // The farthest surface is rounded to steps of a texel, and to half precision.
-        let off = (f64::from(*middle) - far).abs();
+        let off = (middle - far).abs();
         assert!(off < 0.51 * light.texel() + far.abs() / 1024.0, "{middle}, not {far}");
-        assert!(f64::from(*spread) < 0.01 * light.texel(), "{spread} about one spot");
+        assert!(spread < 0.01 * light.texel(), "{spread} about one spot");
     }
 }
 

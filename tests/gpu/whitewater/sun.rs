@@ -1,6 +1,6 @@
 //! A sun that is in the environment map and also a light.
 
-use whitewater::{EnvironmentSource, Equirectangular, Recorded, Slot};
+use whitewater::{Access, EnvironmentSource, Equirectangular, Recorded, Slot};
 
 use super::*;
 
@@ -118,4 +118,32 @@ fn the_environment_changes_between_frames_in_flight() {
             }
         }
     }
+}
+
+/// Both pictures of an environment change their layouts once, although the one without the sun is read twice.
+#[test]
+fn pictures_are_taken_and_left_in_their_states() {
+    let gpu = Gpu::shared();
+    let size = extent(16, 8);
+    let sampled = Some(WhitewaterConfig::new(16).with(|it| it.irradiance = Irradiance::Sampled));
+    let mut rig = Rig::new(&gpu, &whitewater_config(SIZE).with(|it| it.whitewater = sampled));
+    let general = Access::new(
+        vk::PipelineStageFlags2::ALL_COMMANDS,
+        vk::AccessFlags2::MEMORY_READ,
+        vk::ImageLayout::GENERAL,
+    );
+    let maps = [0.7, 0.1].map(|light| rig.map(size, &[[light; 4]; 128]));
+    let [mut image, mut without_sun] = maps.each_ref().map(|map| map.host_image());
+    (image.after, without_sun.after) = (general, general);
+    let source = EnvironmentSource::Equirectangular(
+        Equirectangular::new(image).with(|it| it.without_sun = Some(without_sun)),
+    );
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording, and the maps live until the slot was waited for.
+    unsafe { rig.renderer().record_environment(cmd, Slot(0), &source) }.expect("record");
+    for map in &maps {
+        rig.stub.barrier(cmd, map.image, map.aspect, general, map.state);
+    }
+    rig.stub.end(0);
+    rig.stub.wait(0);
 }
