@@ -19,9 +19,9 @@ use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::DeviceSupport;
 
 /// State shared by all objects of one device: [`Renderer`](crate::Renderer)s, a
-/// [`SurfaceFoamState`](crate::SurfaceFoamState) and so on are created from a context. A pipeline is created once for
-/// all of them and kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure) switches back
-/// and forth.
+/// [`SurfaceFoamState`](crate::SurfaceFoamState) and so on are created from a context. Each pipeline is created once,
+/// serves all of them, and is kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure)
+/// switches back and forth.
 ///
 /// All clones are the same context. Its Vulkan objects are freed once the last clone is dropped and everything
 /// created from the context is destroyed. Both have to happen before the host destroys its device.

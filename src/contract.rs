@@ -254,16 +254,18 @@ pub struct Config {
     /// Air more than 32 spacings behind the nearest water of a cell of 8×8 pixels is not found.
     /// With 1 the passes `gaps` and `back` do not exist.
     pub sheets: u32,
-    /// Whether the pass `surface_foam` draws surface foam (default false), into which particles of the water turn.
-    /// The part of a particle that is foam no longer counts as water. Surface foam takes 68 more bytes of GPU memory
-    /// per particle, and 52 per texel at [`thickness_level`](Self::thickness_level) (56 with a light map or a shadow
-    /// map).
+    /// Whether the pass `surface_foam` draws surface foam (default false). Particles of the water turn into this
+    /// foam, each of them partly or wholly. The part of a particle that is foam no longer counts as water. Surface
+    /// foam takes 68 more bytes of GPU memory per particle, and 52 per texel at
+    /// [`thickness_level`](Self::thickness_level) (56 with a light map or a shadow map).
     pub surface_foam: bool,
     /// Whether the pass `spray` draws particles of low density as droplets and mist (default false). A particle below
     /// [`SpraySettings::all_spray_density`] is only spray, one above
     /// [`no_spray_density`](SpraySettings::no_spray_density) is no spray; in between the share of spray falls
-    /// gradually. The limits of [`SpraySettings`] then also apply to water and surface foam. Spray takes 48 more
-    /// bytes of GPU memory per particle, and 8 per pixel.
+    /// gradually. For water and surface foam, [`all_spray_density`](SpraySettings::all_spray_density) then replaces
+    /// [`WaterSettings::density_threshold`], and [`full_water_density`](SpraySettings::full_water_density) replaces
+    /// [`density_full`](WaterSettings::density_full): between these two densities a particle's water shrinks and its
+    /// surface foam fades out. Spray takes 48 more bytes of GPU memory per particle, and 8 per pixel.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own, [`Frame::whitewater`]):
     /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not drawn. It takes 88 more bytes of

@@ -127,9 +127,10 @@ impl Renderer {
     /// true. It removes the environment, so call [`record_environment`](Self::record_environment) after it. It also
     /// replaces the host's foam texture ([`record_foam_texture`](Self::record_foam_texture)) by the built-in one.
     ///
-    /// # Safety `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before
-    /// every frame that is recorded after the set-up. The set-up belongs to no slot: its GPU work has to be complete
-    /// before `resize` and `reconfigure`. This is certain once a frame that was recorded after it has finished.
+    /// # Safety
+    /// `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before every
+    /// frame that is recorded after the set-up. The set-up belongs to no slot: its GPU work has to be complete before
+    /// `resize` and `reconfigure`. This is certain once a frame that was recorded after it has finished.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         self.set_up = true;
         self.forget_environments();

@@ -62,8 +62,8 @@ impl Soap {
         &self.image
     }
 
-    /// Records the pass. `water` has the images of the water's depth and thickness. Both must be in the state in which
-    /// fragment shaders sample them, and are in the same state after the pass.
+    /// Records the pass. `water` has the images of the water's depth and thickness. Both must be in the state
+    /// `FRAGMENT_SAMPLED`, and are in it again after the pass.
     pub fn record(
         &self,
         r: &Recording<'_>,

@@ -93,9 +93,9 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// The layer `water.iterations`: the number of smoothing iterations planned at each texel of the front layer of
-/// water. Where two resolution levels are blended, it is the number of the one with the greater weight. `plan` is the
-/// renderer's image, which holds the numbers of all levels.
+/// The picture `water.iterations`: for each texel of the front layer of water, the number of smoothing iterations
+/// planned there; 0 without water. Where two resolution levels are blended, it is the number of the level with the
+/// greater weight. `plan` holds the numbers of all levels, in one image.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

@@ -134,11 +134,12 @@ impl Headless {
         Ok(())
     }
 
-    /// Updates the map after the land has changed, with the transform of each mesh. `changed` has the meaning of
-    /// [`ShoreMapStep::changed`].
+    /// Brings the map up to date after the land has changed; the map is complete when this returns. `transforms` has
+    /// one transform for each mesh of [`shore_map`](Self::shore_map). `changed` is the rectangle in which the land
+    /// has changed ([`ShoreMapStep::changed`]), or `None` for the whole map.
     ///
     /// # Errors
-    /// No map, a number of transforms that differs from that of meshes, and the errors of [`ShoreMap::record_step`].
+    /// No map; more or fewer transforms than meshes; the errors of [`ShoreMap::record_step`].
     pub fn shore_map_step(
         &mut self,
         area: &Area,
@@ -161,7 +162,11 @@ impl Headless {
             let (before, after) = (HOST_WRITE, HOST_WRITE);
             let step = ShoreMapStep { slot: Slot(0), area: *area, heights, changed, before, after };
             // SAFETY: submitted at once, and waited for.
-            self.run(|_, cmd| unsafe { map.record_step(cmd, &step) })
+            let result = self.run(|_, cmd| unsafe { map.record_step(cmd, &step) });
+            if result.is_err() {
+                map.abandon(Slot(0));
+            }
+            result
         } else {
             let why = format!("{} of {} meshes", transforms.len(), meshes.len());
             Err(Error::bad("transforms", why))

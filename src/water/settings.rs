@@ -349,7 +349,7 @@ pub struct Ellipsoids {
     pub ratio: f32,
     /// Sum of the neighbours' weights at and above which a particle is a complete ellipsoid, [0, 64], default 8. Below
     /// half of this sum it is a sphere, as small drops are (Yu and Turk: up to 25 neighbours); in between its shape
-    /// changes gradually. With the default reach the sum is 2.9 in a line of particles, 11 in a single sheet of them,
+    /// changes gradually. With the default reach the sum is 2.8 in a line of particles, 11 in a single sheet of them,
     /// 32 inside water.
     pub fewest: f32,
     /// Factor on the radius of a particle whose neighbours' weights add up to at most 1.5, such as one with a single
@@ -588,8 +588,9 @@ pub struct WeberSettings {
 pub const SURFACE_TENSION: f32 = 0.0728;
 
 impl WeberSettings {
-    /// The full Weber number `ρ v² l / σ` in SI units, with the particle `spacing` in metres as l. A particle foams
-    /// at and above the Weber number `threshold`.
+    /// The full Weber number `ρ v² l / σ` in SI units: ρ is the particle's density, v its speed relative to the air,
+    /// l the particle `spacing` in metres, and σ the surface tension of water. A particle foams at and above the
+    /// Weber number `threshold`.
     pub fn weber(spacing: f32, threshold: f32) -> Self {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
@@ -845,10 +846,10 @@ pub struct SpraySettings {
     /// eye do not look like balls. No effect if [`droplets`](Self::droplets) is 1, and none on mist.
     pub max_angle: f32,
     /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has
-    /// a random fraction of them, between a fifth and all, chosen by its id. A particle that is more than three
+    /// between a fifth and all of this number, chosen at random by its id. A particle that is more than three
     /// quarters spray has fewer and larger droplets, because torn water is many fine drops and an isolated particle a
-    /// few large ones: their number is multiplied by a factor that falls from 1 to 0.3 for a particle that is only
-    /// spray, and its mist by the cube of this factor.
+    /// few large ones. For such a particle a factor falls from 1 at three quarters to 0.3 at 92.5 % spray and above.
+    /// The number of droplets is multiplied by this factor, the optical depth of the mist by its cube.
     pub droplets: u32,
     /// Fraction of the rest density below which a particle is drawn only as spray, not as water, [0, ∞), default 0.6.
     /// A particle in a single row of particles, which has 0.48 with the usual cubic spline, is then spray.
@@ -1042,10 +1043,10 @@ pub struct SurfaceNoiseSettings {
     pub size: f32,
     /// Number of cells of a particle's noise per drawn radius, [0.001, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Fraction by which the height is reduced where the water lies on the scene, so that the scene behind is under
-    /// water, [0, 1], default 0, as in the publication. With 1 only water in the air (jets, sheets, drops) has the
-    /// noise, because a solver's particles are coarsest there: a pool keeps the simulated waves alone. No effect with
-    /// `Bed::Source`.
+    /// Fraction by which the height is reduced where the water lies on the scene, that is, where there is no air
+    /// between the water and the scene behind it, [0, 1], default 0, as in the publication. With 1 only water in the
+    /// air (jets, sheets, drops) has ripples, because a solver's particles are coarsest in the air; a pool keeps the
+    /// simulated waves alone. [`foam`](Self::foam) is not reduced. No effect with `Bed::Source`.
     pub airborne: f32,
     /// Amount of the publication's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's
     /// magnitude. An amount of 1 or more is full foam. [0, 64], default 0: no such foam.
@@ -1069,8 +1070,9 @@ impl Default for SurfaceNoiseSettings {
 }
 
 impl SurfaceNoiseSettings {
-    /// Ripples on water in the air (jets, sheets, drops) and none on water that lies on the scene. Weight and number
-    /// of cells are chosen by eye: reflections in a jet break up, and the scene behind it can still be recognised.
+    /// Ripples on water in the air (jets, sheets, drops) and none on water that lies on the scene.
+    /// [`weight`](Self::weight) and [`cells`](Self::cells) are chosen by eye: reflections in a jet break up, and the
+    /// scene behind it can still be recognised.
     pub const AIRBORNE: Self = Self {
         weight: 0.33,
         falloff: 2.0,

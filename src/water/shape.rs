@@ -248,9 +248,11 @@ impl Shape {
         })
     }
 
-    /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions, and
-    /// with surface foam and densities changed where a particle has few neighbours. The other streams are the host's.
-    /// Afterwards compute shaders can read all streams, vertex shaders all but the positions.
+    /// Records the pass, and returns the particles for the passes after it. In place of the host's positions they
+    /// have `shaped`, which holds positions and shapes. If the settings change the surface foam or the densities of
+    /// particles with few neighbours, such a stream is replaced by a changed copy, too. The other streams are the
+    /// host's; no buffer of the host is written. Afterwards compute shaders can read all returned streams, vertex
+    /// shaders all but `shaped`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -138,8 +138,8 @@ impl Smooth {
         Ok(())
     }
 
-    /// Records the smoothing. Both images must be in the state in which `reduce` leaves them (layout GENERAL). After
-    /// the pass, fragment shaders can sample `a`.
+    /// Records the smoothing. Images `a` and `b` must be in the state in which `reduce` leaves them (layout GENERAL).
+    /// After the pass, `a` is in the state `FRAGMENT_SAMPLED` (layout SHADER_READ_ONLY_OPTIMAL).
     pub fn record(&self, r: &mut Recording<'_>, work: &Work<'_>) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
         match &self.form {

@@ -28,8 +28,8 @@ use crate::gpu::shader;
 pub const TILE: u32 = 16;
 /// Maximum number of workgroups over tiles; if there are more tiles, a group processes several.
 pub const MOST_GROUPS: u32 = 65_535;
-/// Bytes of all arguments, 16 each: the draw of all tiles, 257 dispatches for the iterations, the dispatch over all
-/// tiles.
+/// Bytes of all arguments, 16 each: the draw of the tiles with work, 257 dispatches for the iterations, the dispatch
+/// over the tiles with work.
 const ARGUMENTS: u64 = 16 * 259;
 /// Byte offset of the last arguments.
 pub const ALL_TILES: u64 = 16 * 258;
@@ -49,8 +49,10 @@ pub struct Tiles {
     pub work: Buffer,
     /// Indices of the tiles with work, largest work first.
     pub list: Buffer,
-    /// Arguments. `[0]`: a draw of all tiles (a strip of four vertices, one instance per tile). `[i]`: the dispatch
-    /// of smoothing iteration i, with the number of its tiles in the fourth word. `[258]`: a dispatch over all tiles.
+    /// Arguments of indirect commands, four words each. `[0]`: a draw of the tiles in `list`, those with work (a
+    /// strip of four vertices, one instance per tile). `[i]`, i from 1 to 257: the dispatch of smoothing iteration i;
+    /// the fourth word is the number of tiles that this iteration processes. `[258]`: a dispatch over the tiles in
+    /// `list`; the fourth word is their number.
     pub arguments: Buffer,
     /// Layout of the levels.
     pub atlas: Atlas,

@@ -11,10 +11,11 @@ use crate::error::Error;
 /// Waves that particles do not resolve. They tilt the normals of level water and focus its caustics, but do not
 /// displace it.
 ///
-/// They are 15 sines in all directions, with lengths that span three octaves; each octave contributes the same slope.
-/// All waves fade out where the water's surface is inclined by 45 to 78 degrees. In the picture, all waves also fade
-/// out where the water is between two particle spacings and one thick, and a single sine where its waves are shorter
-/// than a few pixels.
+/// They are 15 sines in all directions, each with the same slope. From one to the next the length falls by a fifth of
+/// an octave, so the longest is seven times the shortest. All waves fade out on inclined water: they are full up to
+/// 45 degrees, and gone from 78 degrees on. Two more limits hold in the picture, but not for caustics. On thin water
+/// all waves fade out: they are full from two particle spacings of thickness on, and gone at one. A single sine fades
+/// out where it is short on the screen: it is full from a length of five pixels on, and gone at two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wavelets {

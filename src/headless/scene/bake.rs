@@ -21,8 +21,9 @@ pub struct Vertex {
     pub light: [f32; 4],
     /// Mean albedo of what the vertex sees over its hemisphere, weighted by the cosine; the sky counts as 0.
     pub around: [f32; 3],
-    /// Distance, in scene units, by which the smooth surface that the facets approximate lies outside them. At
-    /// vertices of the backdrop instead: fraction of the sun's disc that the backdrop does not hide, 0 to 1.
+    /// Distance, in scene units, from the flat facets out to the smooth surface that they approximate. At vertices of
+    /// the backdrop instead: fraction of the sun's disc, seen from the vertex, that the backdrop does not hide, 0 to
+    /// 1.
     pub bulge: f32,
 }
 

@@ -40,9 +40,9 @@ pub struct Sea {
     /// Direction of the largest waves, or of the lava's flow: world x and z, any length except 0, default [0.8,
     /// 0.6].
     pub towards: [f32; 2],
-    /// Period in seconds, (0, ∞), after which the sea's motion repeats: the frequency of each wave is rounded to a
-    /// multiple of 1 / period, and lava cross-fades two copies of its flow that are a period apart. `None`, the
-    /// default: the motion does not repeat.
+    /// Period in seconds, (0, ∞), after which the sea's motion repeats: the frequency of each wave is rounded to the
+    /// nearest multiple of 1 / period, but not to 0. If the sea is lava, two copies of its flow cross-fade, of which
+    /// one is a period behind the other. `None`, the default: the motion does not repeat.
     pub period: Option<f32>,
     /// Liquid, default water.
     pub liquid: Liquid,

@@ -180,8 +180,9 @@ impl Tracer {
         hit
     }
 
-    /// Bakes the light of the vertices. A vertex inside a solid takes the light of its neighbours, so that no
-    /// darkness leaks out from under a wall.
+    /// Bakes the indirect light of the vertices. A vertex inside a solid takes the light of its neighbours in the
+    /// triangles, so that no darkness leaks out from under a wall. With `is_mesh` (a mesh, not the ground) a vertex
+    /// below the ground counts as inside a solid, too.
     pub fn light(&self, vertices: &mut [Vertex], indices: &[u32], is_mesh: bool) {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = vertices.len().div_ceil(threads).max(1);

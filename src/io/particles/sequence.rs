@@ -259,10 +259,11 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
     Ok(found)
 }
 
-/// The frames of `found` whose numbers are in the range `frames`; all of them with `None`.
+/// The frames of `found` whose numbers are in the range `frames`. With `None` there is no range, and all of `found`
+/// is returned.
 ///
 /// # Errors
-/// [`SequenceError::OutsideRange`] if there is none.
+/// [`SequenceError::OutsideRange`] if there is a range and no frame is in it.
 pub fn within(
     mut found: Vec<Frame>,
     frames: Option<RangeInclusive<u64>>,

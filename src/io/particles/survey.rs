@@ -197,8 +197,8 @@ impl Steps {
 /// Results so far.
 #[derive(Debug)]
 pub(super) struct Survey {
-    /// Whether this is the first pass over the particles, which gathers their times, ids and positions. A second one
-    /// knows them.
+    /// Whether this is the first pass over the particles. It collects their times, how often ids and positions
+    /// repeat, and how many values are not finite. A second pass does not need these again.
     asks: bool,
     origin: [f64; 3],
     seen: usize,

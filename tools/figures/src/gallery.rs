@@ -134,7 +134,7 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
 /// Text of the page.
 fn page() -> String {
     let mut text = String::from(
-        "# Gallery\n\nPictures with the default settings. The command below each picture draws it; these commands draw all ten:\n\n```sh\n\
+        "# Gallery\n\nTen pictures with the default settings. The command below a picture draws this picture. The following commands draw all ten:\n\n```sh\n\
          cargo build --release -p whitewater-cli -p whitewater-figures\n\
          target/release/whitewater-figures --caches DIR --gallery --public CACHES\n```\n\n\
          DIR holds the project's own scenes (`whitewater simulate`), CACHES the public ones under the names below.\n",

@@ -416,8 +416,9 @@ pub struct DrawArgs {
     /// fixed:40 --surface-foam none.
     #[arg(long, value_enum)]
     pub noise: Option<NoiseArg>,
-    /// Shadows: all (scene, water and foam cast them, with caustics), scene (the scene alone casts them, on foam, spray
-    /// and the sun's highlights), or none [default: all; scene with --look thesis]
+    /// Shadows besides those of the scene on itself, which are always drawn: all (scene, water and foam cast them,
+    /// with caustics), scene (the scene alone casts them: on foam and spray, and it hides the sun's highlights on
+    /// water), or none [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
     pub shadows: Option<ShadowArg>,
     /// How particles are rasterized: by a compute shader or as sprites (raster) [default: compute]

@@ -100,7 +100,8 @@ impl Meshes {
         Ok(Self { pipelines, draws })
     }
 
-    /// Number of descriptor sets for a record: one for each pair of pipeline and texture.
+    /// Number of descriptor sets that one call of `draw` needs: one for each different pair of pipeline and texture
+    /// that its meshes use.
     pub fn sets(&self) -> u32 {
         let draws = self.draws.iter().map(|draw| (draw.kind, draw.texture));
         draws.collect::<BTreeSet<_>>().len() as u32

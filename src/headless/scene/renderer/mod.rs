@@ -57,8 +57,8 @@ pub struct SceneFrame<'a> {
     pub color: &'a Image,
     /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
     pub depth: &'a Image,
-    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL. The caller has made its last write
-    /// visible to compute and fragment shaders by a barrier.
+    /// Cube map of the environment that is seen as sky and in reflections, with mips, in SHADER_READ_ONLY_OPTIMAL.
+    /// The caller has made its last write visible to compute and fragment shaders by a barrier.
     pub environment: vk::ImageView,
     /// Cube map like `environment`, but without the sun, for lighting the scene; `None` if `environment` contains no
     /// sun.

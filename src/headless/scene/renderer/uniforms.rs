@@ -130,8 +130,8 @@ impl Surroundings {
 }
 
 impl Uniforms {
-    /// Returns the block for one picture. `far` is the device depth of the far plane, `extent` the size of the
-    /// picture.
+    /// Returns the block for one picture. `far` is the value of the depth buffer at the far plane (0 or 1), `extent`
+    /// the size of the picture in pixels.
     pub fn new(
         surroundings: &Surroundings,
         sun: &SunView,

@@ -353,7 +353,7 @@ fn whitewater_is_blurred_along_its_velocity() {
         let common = format!("render a.ply {small} {FRONT} --settings look.toml");
         let run = folder.run(&format!("{common} -o {name} {more}")).ok();
         let light = folder.picture(name).rgb().unwrap();
-        (light[32 * 96..33 * 96].iter().map(|c| c[1]).collect(), run.stderr().into())
+        (light[32 * 96..33 * 96].iter().map(|c| c[1]).collect(), run.stderr())
     };
     let (without, _) = row("none.exr", "");
     let wide = |foam: &str| {
