@@ -98,7 +98,8 @@
 //!
 //! - Command buffers are primary, of the family in [`Host`], outside any render pass, without an active query or
 //!   conditional rendering. They are submitted to one queue in the order in which they were recorded. Report a
-//!   recorded command buffer that is never submitted with [`Renderer::abandon`].
+//!   recorded command buffer that is never submitted with [`Renderer::abandon`], and a step in it with
+//!   [`SurfaceFoamState::abandon`], [`Generator::abandon`] or [`shore::ShoreMap::abandon`].
 //! - Before a slot is recorded again, its earlier GPU work is complete. Each view has a renderer of its own.
 //! - The host acquires queue family ownership of its resources beforehand. Its images are single-sampled.
 //!

@@ -1,6 +1,7 @@
 #version 460
 // Pass `composite`, compute: draws shoreline and contact foam on the scene's own water surface over the scene's
-// colour, one workgroup per run (adjacent 8x8 tiles of a row). Particle water is drawn over it afterwards.
+// colour, one workgroup per run (adjacent 8x8 tiles of a row). Particle water is drawn over it afterwards. The output
+// keeps its alpha, which is that of the scene's colour.
 // Reads: list, arguments, scene colour, shoreline and contact foam. Writes: output, for pixels with foam.
 
 #include "frame.glsl"
@@ -30,7 +31,10 @@ void main() {
     for (; pixel.x < end && pixel.y < int(frame.extent.y); pixel.x += 8) {
         vec4 coat = texelFetch(shore_foam, pixel, 0);
         if (coat.x + coat.y > 0.0) {
-            imageStore(target, pixel + ivec2(frame.target.xy), vec4(coated(uncoated_at(vec2(pixel) + 0.5), coat, coat_light()), 1.0));
+            vec2 place = (vec2(pixel) + 0.5) * frame.scene_color.xy;
+            vec4 scene = filtered(scene_color, place, frame.scene_origin.zw, frame.scene_color.zw);
+            vec4 color = vec4(coated(scene.rgb, coat, coat_light()), scene.a);
+            imageStore(target, pixel + ivec2(frame.target.xy), color);
         }
     }
 }

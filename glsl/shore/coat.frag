@@ -1,5 +1,6 @@
 #version 460
-// Pass `composite`, raster: foam on the scene's own water surface. Water of particles is drawn over it afterwards.
+// Pass `composite`, raster: foam on the scene's own water surface. Water of particles is drawn over it afterwards. The
+// output keeps its alpha, which is that of the scene's colour.
 // Reads: shoreline and contact foam; scene colour, if the output cannot be blended. Writes: output.
 
 #include "frame.glsl"
@@ -25,6 +26,7 @@ void main() {
         if (coat.x + coat.y == 0.0) {
             discard;
         }
-        color = vec4(coated(uncoated_at(pixel), coat, light), 1.0);
+        vec4 scene = filtered(scene_color, pixel * frame.scene_color.xy, frame.scene_origin.zw, frame.scene_color.zw);
+        color = vec4(coated(scene.rgb, coat, light), scene.a);
     }
 }

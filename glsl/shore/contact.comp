@@ -36,6 +36,9 @@ void main() {
     bool go = front < EMPTY && scene > 0.0 && near < 1.0;
     for (; go; go = false) {
         float z = smoothed_at(pixel, front);
+        // Here water is in front of the scene, and only the smoothing may have moved its surface behind it. The two
+        // meet there, so a negative distance counts as 0 (contact_foam): without foam there would be gaps along the
+        // objects. On the host's surface (shoreline.comp) a negative distance means that an object is in front of it.
         float far = contact_distance(ray, z, scene) * shore.contact.y;
         Water w = water_point(ray, z);
         float amount = far < 1.0 ? contact_foam(far, pattern_at(pixel, w.p, w.across).x) : 0.0;

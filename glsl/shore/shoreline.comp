@@ -29,12 +29,18 @@ layout(constant_id = 1) const uint PARTS = 3;
 #include "shore_light.glsl"
 #include "shore_place.glsl"
 
+// Foam farther away than this eye depth, in scene units, is left out. Up to here the squares of changes per pixel are
+// finite in single precision, even if the view ray is nearly level.
+const float FARTHEST = 1.0e9;
+
 // The shore coordinate v (0 at the sea's edge of the foam, 1 at the shore line, 2 inland) without a map: by the
 // horizontal distance from the surface point at depth `z` to the plane of the bed behind it, which is also right for
-// walls. If the surface is seen from below, the scene behind it is no bed; v is then 0, far from the shore.
+// walls. v is 0, as far from the shore, if the surface is seen from below, because the scene behind it is then no bed,
+// and if the plane is unknown, because on one of the screen axes no neighbouring pixel shows a scene.
 float v_by_depth(vec2 pixel, vec3 ray, float z, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
+    bool known = true;
     for (int i = 1; i < 3; ++i) {
         // For the slope of the bed, takes on each screen axis the one of the two neighbouring pixels whose depth is
         // nearer to the pixel's own.
@@ -48,6 +54,7 @@ float v_by_depth(vec2 pixel, vec3 ray, float z, float scene) {
                 places[i] = vec3(ray_slope(beside, frame.slope), -1.0) * next;
             }
         }
+        known = known && best < EMPTY;
         places[i] = best < EMPTY ? places[i] : places[0];
     }
     vec3 normal = cross(places[1] - places[0], places[2] - places[0]);
@@ -56,15 +63,14 @@ float v_by_depth(vec2 pixel, vec3 ray, float z, float scene) {
     // Distance of the surface point from the plane, times the normal's length.
     float off = max(1.0 - z / scene, 0.0) * abs(dot(normal, places[0]));
     float v = v_of(-off / max(level, 1.0e-3 * up + 1.0e-20));
-    return dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
+    return known && dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
 }
 
-// The surface at a pixel. Its depth is limited to 1e6 scene units: foam farther away, near the horizon, is taken to be
-// invisible.
+// The surface at a pixel; at the depth FARTHEST if it is farther away or not seen.
 Water water_at(vec2 pixel) {
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     float z = surface_at(pixel, ray);
-    return water_point(ray, z > 0.0 ? min(z, 1.0e6) : 1.0e6);
+    return water_point(ray, z > 0.0 ? min(z, FARTHEST) : FARTHEST);
 }
 
 // Shades a pixel; `device` is the scene's device depth.
@@ -75,7 +81,7 @@ bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float 
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     float scene = scene_of(device);
     float z = surface_at(pixel, ray);
-    bool own = inside && seen_before(z, scene);
+    bool own = inside && z < FARTHEST && seen_before(z, scene);
     float line = 0.0;
     if ((PARTS & 1u) != 0u) {
         line = own && v > 0.0 && v < 2.0 ? covered(mixed, pixel) : 0.0;

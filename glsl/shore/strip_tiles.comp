@@ -9,8 +9,7 @@ layout(set = 0, binding = 8) uniform sampler2D foam;
 #include "shore_drawn.glsl"
 
 layout(push_constant, std430) uniform Push {
-    uint across; // tiles
-    uint most;   // of a list
+    uvec2 tiles; // of the frame, across and down
 } push;
 
 const uint TILE = 8u; // pixels
@@ -24,7 +23,8 @@ void main() {
     for (int i = 0; i < 16; ++i) {
         most = max(most, textureGather(foam, vec2(TILE * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));
     }
-    if (tile.x < push.across && dot(most, vec4(1.0)) > 0.0) {
-        draws(tile.y * push.across + tile.x);
+    // The dispatch is rounded up to whole workgroups, and beyond the frame's tiles `marks` may end.
+    if (all(lessThan(tile, push.tiles)) && dot(most, vec4(1.0)) > 0.0) {
+        draws(tile.y * push.tiles.x + tile.x);
     }
 }

@@ -83,16 +83,23 @@ void main() {
     low = clamp((low - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
     high = clamp((high - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
     bool over = all(lessThan(low, vec2(shore.map.w))) && all(greaterThan(high, vec2(0.0)));
-    vec2 middle = clamp(0.5 * (low + high), vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
-    // `off` bounds, in scene units, by how much shore distances in the tile differ from the map's texel at `middle`,
-    // the tile's centre: half the tile's diagonal, 1 texel to the centre of the nearest texel, and 1.5 texels to the
-    // four texels around a point. It is no bound if that texel is so far from the shore that the map does not hold its
-    // distance but only a large number (map_distance.comp).
-    float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
-    float distance = texelFetch(map, ivec2(middle), 0).x;
-    bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
+    // Each quarter of these bounds is tested. `off` bounds, in scene units, by how much shore distances in a quarter
+    // differ from the map's texel at its centre: half the quarter's diagonal, 1 texel to the centre of the nearest
+    // texel, 1.5 texels to the four texels around a point, and 1.5 texels for the errors of both distances.
+    float off = (0.25 * length(high - low) + 4.0) / max(shore.map.z, 1.0e-9);
+    // Far from the shore a texel of the map may hold a larger number instead of its distance. It then tells only that
+    // the shore is farther away than the map computes distances (`FARTHER` and `SPARE` in src/shore/distance.rs);
+    // `sure` is 2 texels less, because of rounding and because a seed lies between the centres of texels.
+    float sure = 1.25 / min(shore.reach.x, shore.reach.y) + 6.0 / max(shore.map.z, 1.0e-9);
+    bool band = false;
+    for (int i = 0; i < 4; ++i) {
+        vec2 middle = mix(low, high, 0.25 + 0.5 * vec2(i & 1, i >> 1));
+        middle = clamp(middle, vec2(0.5), vec2(max(shore.map.w - 0.5, 0.5)));
+        float distance = clamp(texelFetch(map, ivec2(middle), 0).x, -sure, sure);
+        band = band || (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
+    }
     bool by_map = shore.reach.w == 2.0, by_depth = shore.reach.w > 2.5;
-    bool in_band = band || shore.surface_part.z > 1.5;
+    bool in_band = over && band || shore.surface_part.z > 1.5;
     bool lines = by_depth || by_map && in_band;
     bool contacts = shore.mask_part.z > 0.0;
     // Read depths only where the surface is in view and they matter.

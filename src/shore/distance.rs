@@ -43,6 +43,11 @@ crate::contract::with!(ShoreMapConfig, ShoreMapStep<'_>);
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
+/// Distances are computed up to this many times [`Area::reach`], and this many texels more. Pass `shore-tiles`
+/// (glsl/shore/tiles.comp) relies on both: where a distance is missing, it knows only that the shore is farther away,
+/// so with a larger range it can leave out more tiles of the open sea.
+const FARTHER: f32 = 1.25;
+const SPARE: i32 = 8;
 
 /// Configuration of a [`ShoreMap`]. It determines how much memory is allocated: 16 bytes per texel. Made by
 /// `default()`.
@@ -239,6 +244,9 @@ pub struct ShoreMap {
     area: Option<Area>,
     /// Whether its heights came from meshes.
     drawn: bool,
+    /// Slot of the step recorded last, and the values of `area` and `drawn` before it, which `abandon` brings back.
+    /// `None` if there is no step to take back: none was recorded since the last `abandon`.
+    last: Option<(Slot, Option<Area>, bool)>,
 }
 
 /// A window of the map in texels: first, and one past the last.
@@ -366,6 +374,7 @@ impl ShoreMap {
             slots: (0..gpu.slots).map(slot).collect::<Result<_, Error>>()?,
             area: None,
             drawn: false,
+            last: None,
         })
     }
 
@@ -374,7 +383,7 @@ impl ShoreMap {
     ///
     /// # Errors
     /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,
-    /// discard the command buffer; the next step then updates everything.
+    /// discard the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Steps are submitted in the order in
@@ -384,12 +393,15 @@ impl ShoreMap {
         cmd: vk::CommandBuffer,
         step: &ShoreMapStep<'_>,
     ) -> Result<(), Error> {
+        // Earlier work of the slot is complete, so it cannot be taken back. A step in another slot still can, if this
+        // one is refused.
+        self.last.take_if(|(slot, ..)| *slot == step.slot);
         self.check(step)?;
         let size = self.config.size;
         let area = step.area;
         let corner = area.corner(size);
         let texel = area.texel(size);
-        let reach = (area.reach / texel).ceil() as i32 + 2;
+        let reach = (FARTHER * area.reach / texel).ceil() as i32 + SPARE;
         // The centre may move within a texel.
         let same = |before: Area| Area { center: area.center, ..before } == area;
         let known = self.area.is_some_and(|before| same(before) && before.corner(size) == corner);
@@ -409,7 +421,8 @@ impl ShoreMap {
         let told = changed.grown(reach, size);
         let asked = told.grown(reach, size);
         let first_time = self.area.is_none();
-        // Unknown after a failure.
+        self.last = Some((step.slot, self.area, self.drawn));
+        // Unknown after a failure, until `abandon`.
         self.area = None;
         let drawn = std::mem::take(&mut self.drawn);
 
@@ -537,7 +550,7 @@ impl ShoreMap {
     }
 
     /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step, and after
-    /// a step that failed with another error than [`Error::BadInput`].
+    /// a step that failed with another error than [`Error::BadInput`], until [`abandon`](Self::abandon).
     pub fn shore_distances(&self) -> Option<ShoreDistances> {
         let area = self.area?;
         let size = self.config.size;
@@ -550,7 +563,7 @@ impl ShoreMap {
     }
 
     /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where the shore is
-    /// farther away than [`Area::reach`], the value is not the distance: only its sign is right, and its absolute
+    /// farther away than [`Area::reach`], the value may not be the distance: only its sign is right, and its absolute
     /// value is larger than the reach. Each step ends with a barrier, after which fragment and compute shaders may
     /// sample the image. It also has transfer-source usage; a copy needs a barrier of your own.
     pub fn distances(&self) -> vk::Image {
@@ -562,6 +575,20 @@ impl ShoreMap {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
             None => &[],
+        }
+    }
+
+    /// Takes back the last recorded step, if it had this slot: the map is again what it was before that step. Call it
+    /// if the step's command buffer was discarded instead of submitted, also if the step failed with another error
+    /// than [`Error::BadInput`]. A step that was refused with that error recorded nothing, so an earlier step in
+    /// another slot can still be taken back. Other earlier steps cannot. The call frees nothing, so it is safe even
+    /// while GPU work is pending.
+    pub fn abandon(&mut self, slot: Slot) {
+        if let Some(state) = self.slots.get_mut(slot.0 as usize) {
+            state.timer.abandon();
+        }
+        if let Some((_, area, drawn)) = self.last.take_if(|(last, ..)| *last == slot) {
+            (self.area, self.drawn) = (area, drawn);
         }
     }
 

@@ -150,7 +150,7 @@ impl ShoreUniforms {
     }
 
     /// The uniform block of a frame. `edges` are the side lengths of foam texture and noise in texels. Without
-    /// [`Frame::shore`] the block draws no foam.
+    /// [`Frame::shore`] the values have no effect, because nothing that reads them is recorded.
     pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
         let Settings { shore: look, water, .. } = frame.settings;
         let own = frame.shore.unwrap_or(crate::contract::Shore::new(0.0));

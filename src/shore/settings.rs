@@ -170,7 +170,8 @@ pub struct ShorelineSettings {
     /// Share of the waves' motion that is an oscillation to and fro instead of an advance with `speed`, 0 (none) to 1
     /// (all), default 0.35. `speed` is multiplied by 1 − `swing`, `swing_amplitude` by `swing`.
     pub swing: f32,
-    /// Amplitude of the oscillation before its multiplication by `swing`, radians, [0, 1000], default 2.2.
+    /// Amplitude of the oscillation of the waves' phase, radians, [0, 1000], default 2.2. It is multiplied by
+    /// `swing`.
     pub swing_amplitude: f32,
     /// Period of the oscillation, seconds, [0.1, 1e6], default 7.
     pub swing_period: f32,
@@ -213,8 +214,8 @@ pub struct ShorelineSettings {
     /// Noise n₃ added to both `wave_offset` and `texture_offset`, so that from place to place along the shore the foam
     /// reaches less or more far out. Default: amplitude 0.22, scale 1/90 (one repetition in 90 scene units).
     pub rise_noise: Noise,
-    /// Noise that displaces the positions at which the foam texture and all other noises are looked up, scene units.
-    /// The shore coordinate v is not displaced. Default: none.
+    /// Noise that displaces, in scene units, the positions at which the foam texture and all other noises are looked
+    /// up. The shore coordinate v, which runs across the shore, is not displaced. Default: none.
     pub warp: Noise,
     /// Width of the bands in which foam fades out, at its seaward edge and at its inland edge, in units of the
     /// coordinate v, which runs across the shore; [0.001, 1], default 0.2.

@@ -163,8 +163,9 @@ impl Shore {
                 let pipeline = &self.strip_tiles;
                 let own = [(11, Resource::buffer(marks)), sampled];
                 r.descriptors.bind(gpu, cmd, pipeline, &own)?;
-                pipeline.push(gpu, cmd, &tiles.places(r.extent));
-                r.dispatch_over(extent_in_tiles(r.extent), pipeline.local_size);
+                let in_tiles = extent_in_tiles(r.extent);
+                pipeline.push(gpu, cmd, &[in_tiles.width, in_tiles.height]);
+                r.dispatch_over(in_tiles, pipeline.local_size);
                 gpu.barriers(cmd, &[access::image(image, COMPUTE_SAMPLED, both)], &marked);
             }
             None => gpu.barriers(cmd, &[access::image(image, CLEAR, both)], &[]),

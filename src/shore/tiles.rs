@@ -66,7 +66,10 @@ impl Lists {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let vk::Extent2D { width: x, height: y } = extent_in_tiles(config.extent);
         let words = |name, each: u32| {
-            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+            // Tests copy from these buffers.
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+                | vk::BufferUsageFlags::TRANSFER_DST
+                | vk::BufferUsageFlags::TRANSFER_SRC;
             let bytes = 4 * u64::from(each) * u64::from(x) * u64::from(y);
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
         };

@@ -63,7 +63,8 @@ fn over_bottom(
     shot
 }
 
-/// Expected colour: the coat over `under`, with the amounts of foam found in the image.
+/// Expected colour: the coat over `under`, with the amounts of foam found in the image. The alpha is
+/// that of `under`.
 pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [f64; 4] {
     let part = texel.map(|v| f64::from(v) / 255.0);
     let (s, c) = (&shot.settings.shore.shoreline, &shot.settings.shore.contact);
@@ -83,7 +84,6 @@ pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) 
             *color = mix(*color, contact, part[1]);
         }
     }
-    color[3] = 1.0;
     color
 }
 
@@ -398,6 +398,37 @@ fn the_coat_is_the_same_in_every_format() {
             assert!(seen > 1000 && 10 * shown > 8 * seen, "{name}: {shown} of {seen}");
             let first = first.get_or_insert_with(|| foam.clone());
             assert_eq!(first.data, foam.data, "{name}: other foam");
+        }
+    }
+}
+
+/// Whether the coat is blended, or mixed with the scene by raster or by compute, the output keeps its
+/// alpha.
+#[test]
+fn the_coat_keeps_the_output_s_alpha() {
+    use ash::vk::Format;
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let mut shot = shot(&coasts, &[]);
+    shot.color.iter_mut().for_each(|color| color[3] = 0.5);
+    for way in WAYS {
+        // The raster path blends the second.
+        for format in [Format::R32G32B32A32_SFLOAT, Format::R16G16B16A16_SFLOAT] {
+            let config = with_shore(shot.size, Edge::Smooth).with(|it| {
+                it.composite = Some(way);
+                it.output_format = format;
+            });
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            for in_place in [true, false] {
+                rig.config.in_place = in_place;
+                let name = format!("{way:?}, {format:?}, in place {in_place}");
+                let drawn = rig.draw(&shot);
+                let foam = drawn.shore.as_ref().expect("foam");
+                let foam = foam.data.iter().filter(|texel| texel[..2] != [0, 0]).count();
+                assert!(foam > 1000, "{name}: {foam} pixels with foam");
+                let other = drawn.output.data.iter().find(|color| color[3] != 0.5);
+                assert_eq!(other, None, "{name}");
+            }
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE};
 use crate::support::rig::{extent, stream};
 use crate::support::scenes::Random;
+use crate::support::spy;
 
 /// Texel size of the areas, in metres.
 const TEXEL: f64 = 0.25;
@@ -423,6 +424,127 @@ fn steps_of_two_slots_in_flight() {
         assert_eq!(coasts.distances().data, expected[1].data, "{round}: the last is seen");
     }
     assert!(coasts.map.as_mut().is_some_and(|map| map.timings(Slot(1)).len() == 1));
+}
+
+/// Result of `ShoreMap::shore_distances`, as text.
+fn known(coasts: &Mapped<'_>) -> String {
+    let map = coasts.map.as_ref().expect("only drop takes it");
+    format!("{:?}", map.shore_distances())
+}
+
+/// Records a step whose commands are never submitted.
+fn discarded(
+    coasts: &mut Mapped<'_>,
+    slot: u32,
+    area: &Area,
+    heights: Heights<'_>,
+) -> Result<(), Error> {
+    let step = ShoreMapStep::new(Slot(slot), *area, heights).with(|it| {
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
+    let cmd = coasts.stub.begin(slot);
+    let map = coasts.map.as_mut().expect("only drop takes it");
+    // SAFETY: cmd is recording and never submitted.
+    unsafe { map.record_step(cmd, &step) }
+}
+
+fn abandon(coasts: &mut Mapped<'_>, slot: u32) {
+    coasts.map.as_mut().expect("only drop takes it").abandon(Slot(slot));
+}
+
+/// An area with a small reach, the area beside it, and a rectangle around all rocks.
+fn rocky() -> (Area, Area, Option<[[f32; 2]; 2]>) {
+    let area = Area { reach: 3.0, ..area(64) };
+    let beside = Area { center: [5.0, -2.0], ..area };
+    (area, beside, Some([[-3.0, -4.0], [9.0, 0.0]]))
+}
+
+/// Heights of a small rock at this x.
+fn rock(area: &Area, x: f64) -> impl Fn(DVec2) -> f64 {
+    let level = f64::from(area.level);
+    move |at| level + 1.5 - 2.0 * at.distance(DVec2::new(x, -2.0))
+}
+
+fn assert_same(name: &str, found: &Image<f32>, expected: &Image<f32>, reach: f32) {
+    let mut within = 0;
+    for (i, (a, b)) in found.data.iter().zip(&expected.data).enumerate() {
+        if a.abs() < reach || b.abs() < reach {
+            within += 1;
+            assert_eq!(a, b, "{name}: ({}, {})", i % found.width, i / found.width);
+        }
+    }
+    assert!(within > 200, "{name}: {within} texels");
+}
+
+/// A step whose commands were thrown away leaves the map unchanged: the first one leaves none, and
+/// later ones neither another area nor heights of meshes that were never drawn.
+#[test]
+fn an_abandoned_step_leaves_the_map_before_it() {
+    let gpu = Gpu::shared();
+    let (mut coasts, mut fresh) = (Mapped::with_slots(&gpu, 64, 2), Mapped::new(&gpu, 64));
+    let (area, beside, changed) = rocky();
+    let texture = coasts.image(&heights(&area, 64, rock(&area, 0.0)));
+    let image = Heights::Image(texture.host_image());
+    discarded(&mut coasts, 0, &area, image).expect("a step");
+    assert_ne!(known(&coasts), "None");
+    abandon(&mut coasts, 1);
+    assert_ne!(known(&coasts), "None", "the step is of another slot");
+    abandon(&mut coasts, 0);
+    assert_eq!(known(&coasts), "None", "the first step was never submitted");
+    coasts.step(&area, image, None);
+    fresh.step(&area, image, None);
+    assert_same("first", &coasts.distances(), &fresh.distances(), area.reach);
+    let before = known(&coasts);
+
+    let meshes = [4.0, 5.0].map(|x| Mesh::of(&coasts, &area, rock(&area, x)));
+    let [mesh, other] = meshes.each_ref().map(|mesh| [mesh.mesh(Mat4::IDENTITY)]);
+    for (area, land) in [(&beside, image), (&area, Heights::Meshes(&mesh))] {
+        discarded(&mut coasts, 1, area, land).expect("a step");
+        // The second call has no effect.
+        (0..2).for_each(|_| abandon(&mut coasts, 1));
+        assert_eq!(known(&coasts), before);
+    }
+    coasts.step(&area, Heights::Meshes(&other), changed);
+    fresh.step(&area, Heights::Meshes(&other), None);
+    assert_same("meshes", &coasts.distances(), &fresh.distances(), area.reach);
+
+    // A refused step records nothing, so the step before it can still be taken back.
+    discarded(&mut coasts, 0, &beside, image).expect("a step");
+    assert_ne!(known(&coasts), before);
+    let refused = discarded(&mut coasts, 1, &Area { edge: 0.0, ..area }, image);
+    assert!(matches!(refused, Err(Error::BadInput { field: "Area.edge", .. })), "{refused:?}");
+    abandon(&mut coasts, 0);
+    assert_eq!(known(&coasts), before);
+}
+
+/// After a failed step there is no map, and after `abandon` there is again the one before.
+#[test]
+fn a_failed_step_can_be_taken_back() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let (mut coasts, mut fresh) = (Mapped::new(&gpu, 64), Mapped::new(&gpu, 64));
+    let (area, beside, changed) = rocky();
+    let [first, next] = [0.0, 2.0].map(|x| coasts.image(&heights(&area, 64, rock(&area, x))));
+    let [first, next] = [&first, &next].map(|image| Heights::Image(image.host_image()));
+    coasts.step(&area, first, None);
+    let before = known(&coasts);
+    for (function, nth) in
+        [(&spy::RESET_DESCRIPTOR_POOL, 1), (&spy::ALLOCATE_SETS, 1), (&spy::ALLOCATE_SETS, 4)]
+    {
+        spy::reset();
+        function.fail(nth, vk::Result::ERROR_DEVICE_LOST);
+        let result = discarded(&mut coasts, 0, &beside, first);
+        spy::reset();
+        let lost = result.is_err_and(|error| error.is_device_lost());
+        assert!(lost, "{:?} call {nth}: no error", function.name);
+        assert_eq!(known(&coasts), "None");
+        abandon(&mut coasts, 0);
+        assert_eq!(known(&coasts), before, "{:?} call {nth}", function.name);
+    }
+    coasts.step(&area, next, changed);
+    fresh.step(&area, next, None);
+    assert_same("after failures", &coasts.distances(), &fresh.distances(), area.reach);
 }
 
 #[test]

@@ -512,3 +512,33 @@ fn up_may_be_any_axis() {
         tally.check(&format!("up {up}"), 100, 0.05);
     }
 }
+
+/// Foam more than a kilometre away is the same in metres and in about millimetres. A power of two as
+/// the ratio of the units scales all lengths without rounding.
+#[test]
+fn far_foam_is_the_same_in_millimetres() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let drawn = |units: f32| {
+        let [far, edge, reach] = [1300.0, 900.0, 400.0].map(|metres| metres * units);
+        let area = Area { center: [0.0, -far], edge, reach, ..AREA };
+        let land = |at: DVec2| -0.3 * (at.y + f64::from(far));
+        coasts.image_step(&area, &heights(&area, 64, land), None);
+        let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
+        let (eye, along) = (Vec3::new(0.0, 300.0 * units, 0.0), Vec3::new(0.0, -0.2, -1.0));
+        shot.camera.view = Mat4::look_to_rh(eye, along.normalize(), Vec3::Y).to_cols_array_2d();
+        let mut look = plain();
+        let s = &mut look.shoreline;
+        ([s.sea_reach, s.land_reach], s.threshold) = ([400.0; 2], -0.3);
+        with_map(&coasts, &mut shot, &look.in_units(units));
+        rig.draw(&shot).shore.expect("shoreline foam")
+    };
+    let [metres, millimetres] = [1.0, 1024.0].map(drawn);
+    let foam = metres.data.iter().filter(|texel| texel[0] > 0).count();
+    let (mean, most) = apart(&metres, &millimetres);
+    println!("{foam} pixels with foam: {mean:.5} steps in the mean, {most} at most");
+    assert!(foam > 100, "{foam} pixels with foam");
+    assert!(most <= 1, "{most} steps");
+}

@@ -13,6 +13,7 @@ use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, extent, stream};
 use crate::support::scenes::Lens;
+use crate::support::spy::{self, By, Event};
 
 /// v is linear in the strip's x and z: factors of x and z, and the constant.
 const ACROSS: [f64; 3] = [0.125, -0.1875, -0.75];
@@ -194,5 +195,86 @@ fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
         let foam = found.data.iter().filter(|texel| texel[0] > 0).count();
         println!("level {level}: {foam} pixels with foam");
         assert_eq!(foam > 0, seen, "level {level}: {foam} pixels with foam");
+    }
+}
+
+/// Which pixels show a scene.
+type Shows = fn(u32, u32) -> bool;
+
+/// A pixel tells the plane of the seabed only together with a neighbour on each screen axis. Without
+/// them it has no foam, whatever its depth.
+#[test]
+fn by_the_depth_alone_lone_pixels_have_no_shore() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::new(&gpu, &with_shore(extent(96, 64), Edge::Smooth));
+    let mut shot = Shot::new(extent(96, 64), Lens::Standard, 0.1, &[]);
+    shot.settings.shore = plain();
+    let shoreline = &mut shot.settings.shore.shoreline;
+    (shoreline.sea_reach, shoreline.threshold) = (100.0, -50.0);
+    shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = Some(Shoreline::Screen)));
+    let cases: [(&str, Shows, bool); 4] = [
+        ("everywhere", |_, _| true, true),
+        ("points", |x, y| x % 3 == 1 && y % 3 == 1, false),
+        ("columns", |x, _| x % 3 == 1, false),
+        ("rows", |_, y| y % 3 == 1, false),
+    ];
+    for (name, shows, foams) in cases {
+        shot.scene_depth(|x, y| shows(x, y).then_some(20.0));
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let foam = found.data.iter().filter(|texel| texel[0] > 0).count();
+        println!("{name}: {foam} pixels with foam");
+        assert_eq!(foam > 0, foams, "{name}: {foam} pixels with foam");
+    }
+}
+
+/// Where foam reaches the bottom row of the image, all tiles with foam are marked, and nothing behind
+/// them. In a frame that is narrower than the image, rows of tiles below the frame would still be in
+/// the buffer of marks, where they show.
+#[test]
+fn marks_end_with_the_frame() {
+    const TILES: [u32; 2] = [25, 17];
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let most = extent(8 * TILES[0], 8 * TILES[1]);
+    let mut rig = Rig::new(&gpu, &with_shore(most, Edge::Smooth));
+    // From the feet of the camera to far away, and v is 1.
+    let [a, b, c, d] = [[-60.0_f32, -60.0], [60.0, -60.0], [-60.0, 60.0], [60.0, 60.0]]
+        .map(|[x, z]| [x, 0.0, z, 1.0]);
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let vertices = rig.stub.data(bytemuck::cast_slice(&[a, b, c, c, b, d]), usage);
+    let strip = Strip {
+        triangles: Triangles { positions: stream(&vertices, 0, 16), vertices: 6, indices: None },
+        coordinates: stream(&vertices, 12, 16),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    for width in [96, most.width] {
+        let mut shot = Shot::new(extent(width, most.height), Lens::ReversedInfinite, 0.1, &[]);
+        shot.settings.shore = plain();
+        // Foam everywhere.
+        shot.settings.shore.shoreline.threshold = -50.0;
+        shot.shore = Some(Shore::new(0.0).with(|it| {
+            it.surface = None;
+            it.shoreline = Some(Shoreline::Strip(strip));
+        }));
+        spy::watch();
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let events = spy::take_events();
+        let bottom = &found.data[found.width * (found.height - 1)..];
+        assert!(bottom.iter().all(|texel| texel[0] > 0), "{width}: foam in all of the last row");
+        let sized = spy::buffers_of_size(4 * u64::from(TILES[0] * TILES[1]));
+        let marks = events.iter().find_map(|event| match *event {
+            Event::Use { buffer, by: By::Transfer } if sized.contains(&buffer) => Some(buffer),
+            _ => None,
+        });
+        let marks = rig.words_of(marks.expect("the marks are filled"), TILES[0] * TILES[1]);
+        let mut expected = vec![0_u32; marks.len()];
+        for (i, texel) in found.data.iter().enumerate() {
+            let (x, y) = (i % found.width, i / found.width);
+            if texel[0] > 0 {
+                expected[y / 8 * found.width.div_ceil(8) + x / 8] = 1;
+            }
+        }
+        assert_eq!(marks, expected, "{width} pixels wide");
     }
 }

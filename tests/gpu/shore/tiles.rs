@@ -1,7 +1,7 @@
 //! Every tile with foam is shaded, wherever the camera is and whatever stands in the water.
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::shore::{Edge, Measure, TextureLayer};
+use whitewater::shore::{Area, Edge, Measure, TextureLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::contact::{scene_of, twins};
@@ -146,5 +146,63 @@ fn no_tile_with_foam_is_left_out() {
             }
             assert!(sure[0] > 50 && sure[1] > 15, "{name}: {sure:?}");
         }
+    }
+}
+
+/// Far away a tile spans more water than the map computes distances for: the middle of the tile may
+/// be in the open sea, beyond all distances of the map, while its far end has foam.
+///
+/// In a level view from a height of 10 m, row 359.5 + k sees the water at 6235 m / k. The shore lines
+/// are such that of one tile only the farthest rows have foam.
+#[test]
+fn no_far_tile_with_foam_is_left_out() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 720);
+    let mut coasts = Mapped::new(&gpu, 256);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    // A third texture layer selects the general pipeline. By the other one, foam a single row high
+    // is not drawn where pixels of two rows share a point that has none.
+    for (shore, layers) in
+        [(160.0, 2), (160.0, 3), (260.0, 2), (260.0, 3), (377.0, 2), (377.0, 3), (740.0, 3)]
+    {
+        let name = format!("{shore} m, {layers} layers");
+        let area = Area { center: [0.0, 40.0 - shore], edge: 256.0, reach: 12.0, ..AREA };
+        let land = |at: glam::DVec2| -0.3 * (at.y + f64::from(shore));
+        coasts.image_step(&area, &heights(&area, 256, land), None);
+        let map = twin_map(&coasts);
+        let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
+        let eye = Vec3::new(0.0, 10.0, 0.0);
+        shot.camera.view = Mat4::look_to_rh(eye, Vec3::NEG_Z, Vec3::Y).to_cols_array_2d();
+        let mut look = plain();
+        let s = &mut look.shoreline;
+        [s.sea_reach, s.land_reach] = [12.0, 3.0];
+        // Foam everywhere but at the ends of v.
+        (s.threshold, s.fade) = (-50.0, 0.05);
+        if layers == 3 {
+            s.layers[2] = TextureLayer { weight: 0.05, ..s.layers[0] };
+        }
+        shot.settings.shore = look;
+        let line = Some(Shoreline::Map(coasts.shore_distances()));
+        shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = line));
+        let found = rig.draw(&shot).shore.expect("foam");
+        let level = water(&shot, DVec3::Y, 0.0);
+        let mut sure = 0;
+        for (i, texel) in found.data.iter().enumerate() {
+            let at @ [x, y] = [i % found.width, i / found.width];
+            let point = level.at([x as f64 + 0.5, y as f64 + 0.5]);
+            // Only near the shore line, because the twin takes long.
+            let off = point.place[1].value + f64::from(shore);
+            if point.depth.low() <= 0.0 || off.abs() > 30.0 {
+                continue;
+            }
+            let pixel = pixel_by_map(&shot, &level, (&map, &area), at);
+            let Some(v) = pixel.map(|pixel| pixel.own_v()) else { continue };
+            if v.low() > 0.06 && v.high() < 1.94 {
+                sure += 1;
+                assert_eq!(texel[0], 255, "{name}: {at:?}, {off:.1} m from the shore line, {v:?}");
+            }
+        }
+        println!("{name}: {sure} pixels have foam");
+        assert!(sure >= 64, "{name}: {sure} pixels have foam");
     }
 }
