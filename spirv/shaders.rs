@@ -266,23 +266,23 @@ pub const ENVIRONMENT_SKY_COMP: Shader = Shader {
 pub const GENERATE_ADVANCE_COMP: Shader = Shader {
     name: "generate/advance.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.advance.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Gone", "gone", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Gone", "gone", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
 };
 /// `generate/begin.comp`
 pub const GENERATE_BEGIN_COMP: Shader = Shader {
     name: "generate/begin.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.begin.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [1, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("HostCount", "host_count", 0), ],
+    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("HostCount", "host_count", 0), ],
 };
 /// `generate/count.comp`
 pub const GENERATE_COUNT_COMP: Shader = Shader {
@@ -299,34 +299,34 @@ pub const GENERATE_COUNT_COMP: Shader = Shader {
 pub const GENERATE_CREST_COMP: Shader = Shader {
     name: "generate/crest.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.crest.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Normals", "normals", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Potentials", "potentials", 0), ("Rates", "rates", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Normals", "normals", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Potentials", "potentials", 0), ("Rates", "rates", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
 };
 /// `generate/emit.comp`
 pub const GENERATE_EMIT_COMP: Shader = Shader {
     name: "generate/emit.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.emit.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), (9, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Normals", "normals", 0), ("Free", "free_slots", 0), ("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Normals", "normals", 0), ("Free", "free_slots", 0), ("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ],
 };
 /// `generate/end.comp`
 pub const GENERATE_END_COMP: Shader = Shader {
     name: "generate/end.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.end.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [1, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ],
+    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ],
 };
 /// `generate/fill.comp`
 pub const GENERATE_FILL_COMP: Shader = Shader {
@@ -343,34 +343,34 @@ pub const GENERATE_FILL_COMP: Shader = Shader {
 pub const GENERATE_FREE_COMP: Shader = Shader {
     name: "generate/free.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.free.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Free", "free_slots", 0), ("Gone", "gone", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ],
+    members: &[("Whitewater", "position", 0), ("Whitewater", "age", 12), ("Particles", "particles", 0), ("Free", "free_slots", 0), ("Gone", "gone", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ],
 };
 /// `generate/potentials.comp`
 pub const GENERATE_POTENTIALS_COMP: Shader = Shader {
     name: "generate/potentials.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.potentials.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Normals", "normals", 0), ("Potentials", "potentials", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Normals", "normals", 0), ("Potentials", "potentials", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
 };
 /// `generate/trace.comp`
 pub const GENERATE_TRACE_COMP: Shader = Shader {
     name: "generate/trace.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.trace.comp.spv"))); &CODE.0 },
-    push_size: 116,
+    push_size: 120,
     local_size: [64, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Ends", "ends", 0), ("Rates", "rates", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Stages", "stages", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Push", "cells", 112), ("Push", "gravity", 116), ("Ends", "ends", 0), ("Rates", "rates", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Stages", "stages", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
 };
 /// `gpu/scan_apply.comp`
 pub const GPU_SCAN_APPLY_COMP: Shader = Shader {
@@ -832,7 +832,7 @@ pub const SHORE_STRIP_TILES_COMP: Shader = Shader {
     shared: 0,
     outputs: 0,
     bindings: &[(8, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Marks", "marks", 0), ("Push", "across", 0), ("Push", "most", 4), ],
+    members: &[("Marks", "marks", 0), ("Push", "tiles", 0), ],
 };
 /// `shore/texture.comp`
 pub const SHORE_TEXTURE_COMP: Shader = Shader {
@@ -926,12 +926,12 @@ pub const WATER_CULL_BEGIN_COMP: Shader = Shader {
 pub const WATER_CULL_END_COMP: Shader = Shader {
     name: "water/cull_end.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull_end.comp.spv"))); &CODE.0 },
-    push_size: 12,
+    push_size: 16,
     local_size: [32, 1, 1],
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "chunks", 0), ("Push", "group_size", 4), ("Push", "most_groups", 8), ("AllCounts", "words", 0), ],
+    members: &[("Push", "chunks", 0), ("Push", "group_size", 4), ("Push", "most_groups", 8), ("Push", "capacity", 12), ("AllCounts", "words", 0), ],
 };
 /// `water/depth.comp`
 pub const WATER_DEPTH_COMP: Shader = Shader {

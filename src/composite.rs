@@ -324,8 +324,8 @@ impl Composite {
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 || coat.is_some() {
-                            // The dispatches write disjoint tiles; this barrier only silences synchronization
-                            // validation.
+                            // Water is shaded over the coat. The dispatches for water write disjoint tiles; between
+                            // them the barrier only silences synchronization validation.
                             gpu.dependency(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);

@@ -65,7 +65,8 @@ impl Default for Sky {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {
-    /// Linear radiance. The format has to support linear filtering. `rect` has to be the whole image.
+    /// Linear radiance; NaN and negative numbers count as 0, infinite ones as 65 000. The format has to support linear
+    /// filtering. `rect` has to be the whole image.
     pub image: HostImage,
     /// The same picture without the sun. It is needed if `image` contains the sun that [`Light`](crate::Light)
     /// describes; `None`, the default, means that `image` does not. Diffuse light is gathered from the picture

@@ -1,5 +1,5 @@
 //! The first comment of each shader names its pass, what it reads and what it writes. That of each include describes it
-//! and names the includes that it needs.
+//! and names the includes that it needs. Steps between two numbers rise.
 
 use std::path::{Path, PathBuf};
 
@@ -37,4 +37,47 @@ fn headers_say_what_is_read_and_written() {
     }
     assert!(seen > 80, "only {seen} shaders");
     assert!(wrong.is_empty(), "headers lack\n{}", wrong.join("\n"));
+}
+
+/// The arguments of a call, from the text behind its opening parenthesis.
+fn arguments(text: &str) -> Vec<&str> {
+    let (mut depth, mut from, mut all) = (0, 0, Vec::new());
+    for (i, c) in text.char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' if depth > 0 => depth -= 1,
+            ')' => {
+                all.push(text[from..i].trim());
+                break;
+            }
+            ',' if depth == 0 => {
+                all.push(text[from..i].trim());
+                from = i + 1;
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
+/// In GLSL and SPIR-V, `smoothstep` is undefined unless its first edge is below the second.
+#[test]
+fn smooth_steps_rise() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl");
+    let (mut wrong, mut seen) = (Vec::new(), 0);
+    for path in shaders(&root) {
+        let text = std::fs::read_to_string(&path).expect("text");
+        for (at, name) in text.match_indices("smoothstep(") {
+            let call = arguments(&text[at + name.len()..]);
+            let edges = call.iter().take(2).map_while(|edge| edge.parse::<f64>().ok());
+            if let [low, high] = edges.collect::<Vec<_>>()[..] {
+                seen += 1;
+                if low >= high {
+                    wrong.push(format!("{}: smoothstep({low}, {high}, ...)", path.display()));
+                }
+            }
+        }
+    }
+    assert!(seen > 20, "only {seen} with numbers");
+    assert!(wrong.is_empty(), "they fall\n{}", wrong.join("\n"));
 }

@@ -74,11 +74,12 @@ void place(uint index) {
     uint at = push.ball_word + index * push.ball_stride;
     vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);
     Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, -1.0, 0u);
-    bool good = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w > 0.0;
-    // An empty entry is no error.
-    if (!good && any(notEqual(ball, vec4(0.0)))) {
+    bool valid = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w >= 0.0;
+    if (!valid) {
         atomicAdd(range.dropped, 1u);
     }
+    // A radius of 0 is no error: it is an empty entry, or foam of which nothing is a blob yet.
+    bool good = valid && ball.w > 0.0;
     vec3 centre = (frame.view * vec4(good ? ball.xyz : vec3(0.0), 1.0)).xyz;
     blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
     ball.w *= merged(ball.w, length(centre), blob.id);

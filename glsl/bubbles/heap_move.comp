@@ -63,7 +63,8 @@ Pushed pushed_by(Heaped own, Heaped other) {
                   share * ROUND / own.ball.w * cross(n, across));
 }
 
-// xyz: direction out of a solid; w: distance from it.
+// xyz: direction out of a solid; w: distance from it. On a mid-plane of a box both sides are equally near; the positive
+// one is taken, so that no blob stays inside.
 vec4 solid_at(Solid solid, vec3 place) {
     if (solid.place.w < 0.5) {
         return vec4(solid.place.xyz, dot(solid.place.xyz, place) - solid.size.w);
@@ -74,7 +75,8 @@ vec4 solid_at(Solid solid, vec3 place) {
     float beside = length(out_);
     float most = max(d.x, max(d.y, d.z));
     vec3 face = vec3(d.x >= most, d.x < most && d.y >= most, d.x < most && d.y < most);
-    vec3 n = sign(q) * (beside > 0.0 ? out_ / beside : face);
+    vec3 side = mix(vec3(1.0), vec3(-1.0), lessThan(q, vec3(0.0)));
+    vec3 n = side * (beside > 0.0 ? out_ / beside : face);
     return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
 }
 
@@ -172,7 +174,8 @@ vec3 way_apart(Heaped own, Company company) {
 }
 
 // Advances the growth of a blob's halves. A blob that has had too few neighbours for some time splits, at most as
-// often as there are entries for its halves. Returns the blob's radius after the step.
+// often as there are entries for its halves. A step of (almost) no time begins no split: the second half would get no
+// radius, and blobs without one never grow. Returns the blob's radius after the step.
 float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec3 spin) {
     float dt = push.solid.z;
     Growth growth = growths[index];
@@ -182,7 +185,7 @@ float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec
     } else if (halved < push.max_splits) {
         bool kept = company.volume >= push.water.z * volume_of(own.ball.w);
         growth.alone = kept ? 0.0 : growth.alone + dt;
-        if (growth.alone > push.water.w) {
+        if (growth.alone > push.water.w && dt > 1.0e-9 * push.solid.w) {
             float goal = 0.79370053 * own.ball.w;
             growth = Growth(goal, min(dt / push.solid.w, 1.0), 0.0, halved + 1u);
             Growth other = Growth(goal, growth.parted, 0.0, (halved + 1u) | CHILD);

@@ -71,7 +71,7 @@ void main() {
         if (slot < push.room) {
             uint id = whitewater_id(i);
             // The blob takes over the area that the sprite loses.
-            float part = sqrt(1.0 - kept_of(p));
+            float part = sqrt(max(1.0 - kept_of(p), 0.0));
             balls[slot] = vec4(world.xyz, frame.whitewater_light.w * p.radius * p.life * part);
             turns[slot] = turn_of(id);
             blob_ids[slot] = id;

@@ -367,8 +367,8 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     float damp = SEA == WATER ? 1.0 - smoothstep(0.08, 0.30, height + 0.12 * broad + 0.05 * patches) : 0.0;
     s.albedo *= mix(vec3(1.0), vec3(0.66, 0.62, 0.57), damp);
     vec3 weed = vec3(0.060, 0.070, 0.035) * (1.0 + 0.8 * fine);
-    s.albedo = mix(s.albedo, s.albedo * vec3(1.05, 1.13, 1.32), smoothstep(0.0, -0.8, height));
-    float deep = smoothstep(-1.3, -3.0, height);
+    s.albedo = mix(s.albedo, s.albedo * vec3(1.05, 1.13, 1.32), 1.0 - smoothstep(-0.8, 0.0, height));
+    float deep = 1.0 - smoothstep(-3.0, -1.3, height);
     s.albedo = mix(s.albedo, weed, 0.85 * deep * smoothstep(0.08, 0.34, patches + 0.6 * broad));
 
     vec3 grass = mix(vec3(0.115, 0.150, 0.040), vec3(0.060, 0.105, 0.025), smoothstep(-0.3, 0.3, patches));
@@ -376,7 +376,8 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     grass *= 1.0 + 0.7 * fine + 0.4 * octaves(p, 7.0, 2, width);
     float green = smoothstep(0.75, 1.15, height / beach + 0.9 * patches + 0.35 * fine);
     s.albedo = mix(s.albedo, grass, green);
-    float steep = smoothstep(0.82, 0.70, n.y + 0.16 * fine + 0.12 * patches) * smoothstep(-0.5, 0.3, height - 0.5 * beach);
+    float steep = 1.0 - smoothstep(0.70, 0.82, n.y + 0.16 * fine + 0.12 * patches);
+    steep *= smoothstep(-0.5, 0.3, height - 0.5 * beach);
     float clouds = octaves(p + 83.0, 0.5, 4, width);
     float strata = octaves(vec3(0.3 * p.x, 2.2 * p.y, 0.3 * p.z), 0.8, 3, width);
     vec3 relief = vec3(octaves(p, 0.9, 4, width), octaves(p + 17.0, 0.9, 4, width), octaves(p + 43.0, 0.9, 4, width));

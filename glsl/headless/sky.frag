@@ -42,7 +42,7 @@ void main() {
     float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));
     const float radius = 0.00465; // 0.533 degrees across
     float edge = max(fwidth(angle), 1.0e-5);
-    float disc = smoothstep(radius + edge, radius - edge, angle);
+    float disc = 1.0 - smoothstep(radius - edge, radius + edge, angle);
     // Glow around the sun's disc, as of a lens and of haze: the sum of a narrow and a wide exponential of the angle.
     float glow = 0.6 * exp(-angle / 0.012) + 0.03 * exp(-angle / 0.06);
     float above = scene.sun_color.w > 0.0 ? smoothstep(-0.01, 0.01, d.y) : 0.0;

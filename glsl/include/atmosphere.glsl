@@ -77,7 +77,7 @@ vec3 sky_radiance(vec3 direction, vec3 sun) {
     float often = 0.072 * height / (height + 0.12);
     vec3 sky = rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (1.0 - exp(-RAYLEIGH * along.x));
     // Below the horizon: grey ground, lit by sun and sky, which replaces the sky gradually (a soft horizon).
-    float below = smoothstep(0.0, -0.12, direction.y);
+    float below = 1.0 - smoothstep(-0.12, 0.0, direction.y);
     vec3 sky_light = vec3(0.15, 0.20, 0.29) * often / 0.072;
     vec3 ground = 0.22 / 3.14159265 * (height * transmittance(optical_depth(eye, sun.y)) + sky_light);
     return mix(sky, ground, below);

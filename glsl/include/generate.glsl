@@ -32,6 +32,7 @@ layout(push_constant, std430) uniform Push {
     uint most;           // capacity of whitewater particles
     uint capacity;       // capacity of fluid particles
     float cells;         // grid cells per unit of length
+    float gravity;       // length of gravity, which sets the step of speeds; 9.81 without gravity
 } push;
 
 #include "generate_types.glsl"
@@ -55,11 +56,12 @@ uint kind_of(uint neighbours) {
     return neighbours < 6u ? SPRAY : neighbours > 20u ? BUBBLE : FOAM;
 }
 
-// Fixed-point steps for sums of numbers around 1, and of speeds.
+// Fixed-point steps for sums of numbers around 1, and of speeds. Speeds are in units of the scene, so their step grows
+// with gravity and spacing.
 const float STEPS = 65536.0;
 const float MOST_STEPS = 131072.0;
 float speed_step() {
-    return sqrt(9.81 * push.spacing) / 256.0;
+    return sqrt(push.gravity * push.spacing) / 256.0;
 }
 
 // Seed of the step.

@@ -71,7 +71,7 @@ Met march(vec3 from, vec3 along, int steps) {
     vec3 a = on_screen(from);
     vec3 way = on_screen(from + along * reach) - a;
     // Clip the ray to the view.
-    vec2 edge = mix(vec2(0.5), frame.extent.xy - 0.5, greaterThan(way.xy, vec2(0.0)));
+    vec2 edge = mix(vec2(0.5), frame.extent.xy - 0.5, greaterThan(way.xy, vec2(-1.0e-6)));
     vec2 ends = (edge - a.xy) / mix(way.xy, vec2(1.0e-6), lessThan(abs(way.xy), vec2(1.0e-6)));
     float whole = clamp(min(ends.x, ends.y), 0.0, 1.0);
     float first = min(MARCH_FIRST * frame.extent.y / max(whole * length(way.xy), 1.0e-6), 1.0);

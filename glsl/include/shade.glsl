@@ -387,6 +387,8 @@ struct Foam {
     vec3 color;
     float t;      // its thickness, scene units
     vec2 water;   // without a water sphere at the pixel: thickness of the water, in all and before the frontmost foam
+    float sunk;   // eye depth of the submerged whitewater
+    float own;    // share of the surface foam in what is hidden; the rest is the submerged whitewater's
 };
 
 // Slope per texel, to the right and down, of the quadratic B-spline of nine texels (three rows, top to bottom), at
@@ -528,6 +530,8 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     for (int i = 0; i < shown; ++i) {
         foam.water += texels.shown[i] * texelFetch(thickness, foam_texel(texels, i), 0).xy;
     }
+    foam.sunk = 0.0;
+    foam.own = 1.0;
     foam.t = t.x;
     foam.depth = texels.depth;
     // In the thesis all foam lies at the depth of the frontmost.
@@ -589,12 +593,11 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     vec3 thick = texelFetch(whitewater_thickness, pixel, 0).xyz;
     float kept = 1.0 - intensity_of(thick.y);
     float far = thick.y > 0.0 ? min(thick.z / thick.y, 0.999) : 0.0;
-    float behind = frame.particle.y * far / (1.0 - far);
     vec3 color = whitewater_color(texelFetch(whitewater_light, pixel, 0));
     // The two kinds of foam are mixed by their opacities.
-    float own = (1.0 - foam.kept) / max(2.0 - foam.kept - kept, 1.0e-6);
-    foam.behind = mix(behind, foam.behind + max(foam.depth - front, 0.0), own);
-    foam.color = mix(color, foam.color, own);
+    foam.own = kept < 1.0 ? (1.0 - foam.kept) / (2.0 - foam.kept - kept) : 1.0;
+    foam.sunk = front + frame.particle.y * far / (1.0 - far);
+    foam.color = mix(color, foam.color, foam.own);
     foam.kept *= kept;
     return foam;
 }
@@ -613,6 +616,9 @@ vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 back
     // a pixel may show no sphere of the drop.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
+    if (WHITEWATER == 1u) {
+        before = mix(max(foam.sunk - z, 0.0), before, foam.own);
+    }
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     vec3 lit = lit_in(sheet);
     vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0), lit).rgb;
@@ -751,7 +757,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             sheet = among(foam, t, sheet);
         }
     } else if (WHITEWATER == 1u) {
-        foam = Foam(front, 1.0, 0.0, vec3(0.0), 0.0, vec2(0.0));
+        foam = Foam(front, 1.0, 0.0, vec3(0.0), 0.0, vec2(0.0), front, 1.0);
     }
     if (WHITEWATER == 1u) {
         foam = with_submerged(foam, ivec2(pixel), front);

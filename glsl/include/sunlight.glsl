@@ -44,6 +44,11 @@ vec2 before_depth(vec4 thick, float depth) {
     return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
 }
 
+// Unit of positions in the map of whitewater, scene units: the power of two at or below the edge of a texel.
+float whitewater_unit() {
+    return uintBitsToFloat(floatBitsToUint(frame.light_map.y) & 0x7f800000u);
+}
+
 // Coverage of a texel by the whitewater particles in front of a depth, that is, nearer to the sun. Only their mean
 // depth and standard deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them
 // lie before it (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray
@@ -51,6 +56,7 @@ vec2 before_depth(vec4 thick, float depth) {
 // subtracted, so that foam does not shade itself within what a texel can resolve.
 float covered_by_whitewater(ivec2 texel, float depth) {
     vec3 there = texelFetch(light_whitewater, texel, 0).xyz;
+    there.yz *= whitewater_unit();
     float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;
     float behind = max(depth - there.y - reach, 0.0);
     float square = behind * behind;

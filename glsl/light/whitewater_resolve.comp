@@ -1,7 +1,7 @@
 #version 460
 // Pass `whitewater_light`, last part: converts the sums of each texel to the thickness of the whitewater, and to the
-// mean and standard deviation of its position along the light. All are slightly blurred, because the sun is not a
-// point. (Source: see whitewater.comp.)
+// mean and standard deviation of its position along the light, in units of whitewater_unit() (sunlight.glsl). All are
+// slightly blurred, because the sun is not a point. (Source: see whitewater.comp.)
 // Reads: words. Writes: whitewater (RGBA16F).
 
 #include "frame.glsl"
@@ -90,7 +90,10 @@ void main() {
         float mean = first / sum;
         float spread = sqrt(max(second / sum - mean * mean, 0.0));
         float middle = float(from - size / 2) + mean;
-        result = vec3(sum / (16.0 * STEPS), vec2(middle, spread) * frame.light_map.y);
+        // The edge of a texel in units of the power of two at or below it: 1 to 2. In these units positions fit in half
+        // precision at every scale.
+        float edge = uintBitsToFloat((floatBitsToUint(frame.light_map.y) & 0x007fffffu) | 0x3f800000u);
+        result = vec3(sum / (16.0 * STEPS), vec2(middle, spread) * edge);
     }
     imageStore(whitewater, texel, vec4(result, 0.0));
 }

@@ -171,8 +171,10 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
         first_large = group_large > 0u ? atomicAdd(counts.large, group_large) : 0u;
     }
     barrier();
-    if (kind != NONE) {
-        uint at = kind == SMALL ? first_small + slot : push.capacity - 1u - first_large - slot;
+    uint order = slot + (kind == SMALL ? first_small : first_large);
+    // Packets that overlap, against the contract, may append more entries than there are particles.
+    if (kind != NONE && order < push.capacity) {
+        uint at = kind == SMALL ? order : push.capacity - 1u - order;
         visible[ENTRIES * at] = sphere;
         if (ELLIPSOIDS == 1u) {
             visible[ENTRIES * at + 1u] = shape;

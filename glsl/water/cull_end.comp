@@ -11,6 +11,7 @@ layout(push_constant, std430) uniform Push {
     uint chunks;
     uint group_size;
     uint most_groups; // large sprites share workgroups beyond this
+    uint capacity;    // of a chunk's list
 } push;
 
 void main() {
@@ -19,9 +20,13 @@ void main() {
         return;
     }
     uint base = chunk * 64u;
-    uint large = words[base + 5u];
+    // Packets that overlap, against the contract, may give more entries than the list holds.
+    uint small = min(words[base], push.capacity);
+    uint large = min(words[base + 5u], push.capacity - small);
+    words[base] = small;
+    words[base + 5u] = large;
     // If a chunk has only large sprites, one workgroup is still dispatched for small ones: in pass `front` this
     // workgroup also copies the large sprites to the list of the front.
-    words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
+    words[base + 8u] = max((small + push.group_size - 1u) / push.group_size, min(large, 1u));
     words[base + 11u] = min(large, push.most_groups);
 }

@@ -5,8 +5,8 @@
 //! thickness t (as for the camera), t·d and t·d², with d the particle's position along the light. They give the
 //! amount of whitewater, and mean and standard deviation of its position. From these follows how much whitewater lies
 //! between the sun and a point, and so how much sunlight reaches the point (glsl/include/sunlight.glsl).
-//! Reads: the host's streams, front. Writes: whitewater, RGBA16F: thickness, mean distance along the light in scene
-//! units, and its standard deviation.
+//! Reads: the host's streams, front. Writes: whitewater, RGBA16F: thickness, mean distance along the light, and its
+//! standard deviation, in units of the power of two at or below a texel's edge (`whitewater_unit`, sunlight.glsl).
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

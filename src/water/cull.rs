@@ -110,7 +110,13 @@ struct EndPush {
     chunks: u32,
     group_size: u32,
     most_groups: u32,
+    capacity: u32,
 }
+shader::assert_layout!(
+    shader::WATER_CULL_END_COMP,
+    "Push",
+    EndPush { chunks, group_size, most_groups, capacity }
+);
 
 /// Returns the number of which each chunk's number of particles is a multiple, so that a chunk's part of each buffer
 /// begins at a multiple of 256 bytes: 16 spheres are 256 bytes, and so are 64 water shares (one word per particle),
@@ -361,7 +367,12 @@ impl Cull {
         self.end.push(
             gpu,
             cmd,
-            &EndPush { chunks: list.chunks, group_size, most_groups: MOST_LARGE_GROUPS },
+            &EndPush {
+                chunks: list.chunks,
+                group_size,
+                most_groups: MOST_LARGE_GROUPS,
+                capacity: list.chunk_size,
+            },
         );
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, list.chunks.div_ceil(32), 1, 1) };

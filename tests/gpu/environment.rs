@@ -3,14 +3,15 @@
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
-use whitewater::{EnvironmentSource, Sky};
+use whitewater::headless::Whitewater;
+use whitewater::{EnvironmentSource, Sky, WhitewaterConfig};
 
 use crate::reference::Image;
 use crate::reference::environment as twin;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, config, extent};
-use crate::support::scenes::Random;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens, Random};
 use crate::support::spy;
 use crate::support::tolerance::U;
 
@@ -90,6 +91,29 @@ fn verbose(name: &str, census: &crate::reference::Census) {
     }
 }
 
+/// The twin's cube map of a map that is scaled and turned, and its bounds. `size`: edge of a face.
+/// `bits`: precision of filtered positions.
+fn cube_of(
+    map: &Image<[f32; 4]>,
+    (size, bits): (u32, u32),
+    (scale, turn): (f64, f64),
+) -> impl Fn(usize, DVec2) -> (DVec3, DVec3) + Sync {
+    move |face: usize, at: DVec2| {
+        let (x, y) = (at.x as usize, at.y as usize);
+        let (mut value, mut bound) = (DVec3::ZERO, DVec3::ZERO);
+        for st in twin::quarters(x, y, size as usize) {
+            let d = twin::direction(face, st);
+            let nudge = nudge(d, turn, map, bits);
+            let position = twin::map_position(d, turn, map.width, map.height);
+            let found = twin::sample(map, position, nudge);
+            value += found.value * scale / 4.0;
+            bound += (found.slope[0] * nudge.x + found.slope[1] * nudge.y) * scale / 4.0;
+        }
+        let rounding = value.to_array().map(|v| 8.0 * U * v + half_step(v));
+        (value, bound + DVec3::from(rounding))
+    }
+}
+
 /// The texels are random, so that none can stand for another.
 #[test]
 fn a_map_becomes_the_twins_cube() {
@@ -110,22 +134,86 @@ fn a_map_becomes_the_twins_cube() {
             let map_extent = extent(width as u32, height as u32);
             rig.turned_environment(map_extent, &texels, scale, turn);
             let (scale, turn) = (f64::from(scale), f64::from(turn));
-            let expected = |face: usize, at: DVec2| {
-                let (x, y) = (at.x as usize, at.y as usize);
-                let (mut value, mut bound) = (DVec3::ZERO, DVec3::ZERO);
-                for st in twin::quarters(x, y, size as usize) {
-                    let d = twin::direction(face, st);
-                    let nudge = nudge(d, turn, &map, bits);
-                    let position = twin::map_position(d, turn, width, height);
-                    let found = twin::sample(&map, position, nudge);
-                    value += found.value * scale / 4.0;
-                    bound += (found.slope[0] * nudge.x + found.slope[1] * nudge.y) * scale / 4.0;
-                }
-                let rounding = value.to_array().map(|v| 8.0 * U * v + half_step(v));
-                (value, bound + DVec3::from(rounding))
-            };
+            let expected = cube_of(&map, (size, bits), (scale, turn));
             let name = format!("environment-{width}x{height}-{size}-{turn:.1}");
             check(&name, &rig, expected);
+        }
+    }
+}
+
+/// A map with three bad numbers, and the map that it counts as.
+fn spoilt() -> [Image<[f32; 4]>; 2] {
+    let mut random = Random(12);
+    let (width, height) = (32, 16);
+    let texel = |_| [0, 1, 2, 3].map(|_| random.between(0.0, 1.0));
+    let mended = Image { width, height, data: (0..width * height).map(texel).collect() };
+    let mut maps = [mended.clone(), mended];
+    // The first one is at the edge, where columns wrap around.
+    for (x, y, c, bad, good) in
+        [(0, 5, 0, f32::NAN, 0.0), (9, 8, 1, -1.0, 0.0), (20, 10, 2, f32::INFINITY, 65_000.0)]
+    {
+        for (map, value) in maps.iter_mut().zip([bad, good]) {
+            map.at_mut(x, y)[c] = value;
+        }
+    }
+    maps
+}
+
+/// Texels that are NaN or negative count as 0, infinite ones as 65 000.
+#[test]
+fn what_is_no_radiance_is_mended() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let size = 16;
+    let mut rig = Rig::new(&gpu, &config(extent(16, 8)).with(|it| it.environment_size = size));
+    let [bad, mended] = spoilt();
+    for (scale, turn) in [(1.0_f32, 0.0_f32), (0.5, 0.7)] {
+        rig.turned_environment(extent(32, 16), &bad.data, scale, turn);
+        let expected = cube_of(&mended, (size, bits), (scale.into(), turn.into()));
+        check(&format!("environment-spoilt-{turn:.1}"), &rig, expected);
+    }
+    // A factor of 0 leaves nothing, not even of radiance that is too large for the sum of samples.
+    rig.turned_environment(extent(2, 1), &[[f32::MAX; 4]; 2], 0.0, 0.0);
+    check("environment-none", &rig, |_, _| (DVec3::ZERO, DVec3::splat(half_step(0.0))));
+}
+
+/// Light of an environment on foam without sunlight, for each pixel that shows foam.
+fn on_foam(rig: &mut Rig<'_>, map: &Image<[f32; 4]>) -> Vec<[f32; 4]> {
+    rig.environment(extent(map.width as u32, map.height as u32), &map.data);
+    let mut shot = Shot::new(rig.config.extent, Lens::Standard, 0.1, &[]);
+    shot.settings.whitewater.radius = 0.5;
+    shot.settings.light.shade = shot.settings.light.irradiance;
+    let positions = scenes::world(&shot.camera, &scenes::cloud(3, 60, 2.0, 4.0));
+    let input =
+        Whitewater { positions: &positions, kinds: None, radii: None, ages: None, ids: None };
+    let (water, foam) = (rig.particles(&shot), rig.whitewater(&input));
+    let drawn = rig.draw_whitewater(&shot, &water.particles(), Some(foam.particles()));
+    let drawn = drawn.whitewater.expect("foam");
+    let pixels = drawn.light.data.iter().zip(&drawn.occluders.data);
+    pixels.filter(|(_, texel)| texel[0] < 1e9).map(|(light, _)| *light).collect()
+}
+
+/// No bad texel reaches the irradiance, which is a sum over all of the environment. Filters know
+/// their weights to 2^-bits, and a texel takes part in samples of an area of four texels, with a
+/// mean weight of a quarter: its sum errs by eight times that, in x and y together. The irradiance
+/// and the light are rounded to half precision.
+#[test]
+fn what_is_no_radiance_lights_nothing() {
+    let gpu = Gpu::shared();
+    let foam = config(extent(48, 32)).with(|it| it.whitewater = Some(WhitewaterConfig::new(64)));
+    let mut rig = Rig::new(&gpu, &foam);
+    let [found, expected] = spoilt().map(|map| on_foam(&mut rig, &map));
+    let lit = expected.iter().filter(|light| light[0] > 0.0).count();
+    assert!(lit > 100 && found.len() == expected.len(), "{lit} of {}", expected.len());
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let by = 8.0 / f64::from(1 << bits) + 4.0 / 1024.0;
+    for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        for c in 0..3 {
+            let [found, expected] = [found, expected].map(|light| f64::from(light[c]));
+            let off = (found - expected).abs();
+            assert!(off <= by * expected, "{i} {c}: {found}, not {expected}");
         }
     }
 }

@@ -360,6 +360,25 @@ fn packets_cull_as_single_particles() {
     }
 }
 
+/// Packets that overlap, against the contract, may draw particles twice, but give no more entries than the lists hold.
+#[test]
+fn packets_that_overlap_do_no_harm() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shot = water(size);
+    let n = shot.positions.len() as u32;
+    let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_particles = n));
+    let single = rig.draw(&shot).work.visible;
+    let cloud = rig.particles(&shot);
+    let data = rig.stub.data(&packet_bytes(&shot, &[(0, n); 3]), STORAGE);
+    let packets = Some(Packets { buffer: data.buffer, offset: 0, count: 3 });
+    let drawn = rig.draw_particles(&shot, &cloud.particles().with(|it| it.packets = packets));
+    // Lists are a multiple of 16 long.
+    let room = n.next_multiple_of(16);
+    assert!(3 * single > room, "{single} of {n} are visible");
+    assert!(drawn.work.visible <= room && drawn.work.front <= room, "more than {room} entries");
+}
+
 /// Particles in no packet are absent from every pass. Particles in packets that the camera does not
 /// see still cast their shadows and caustics into the view.
 #[test]

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::error::Error;
+use crate::water::settings::GREATEST;
 
 /// Signed distances from a solid of any shape, negative inside, at the points of a grid, interpolated linearly in
 /// between. Outside the grid there is no solid.
@@ -10,11 +11,11 @@ use crate::error::Error;
 pub struct DistanceField {
     /// Points along each axis, 2 to 1024; x varies fastest.
     pub points: [u32; 3],
-    /// Position of the first point.
+    /// Position of the first point, scene units, each component [-1e12, 1e12].
     pub corner: [f32; 3],
-    /// Distance between neighbouring points.
+    /// Distance between neighbouring points, scene units, [1e-12, 1e12].
     pub edge: f32,
-    /// Distances, one per point.
+    /// Distances, one per point, scene units, [-1e12, ∞), finite.
     pub distances: Vec<f32>,
 }
 
@@ -28,9 +29,13 @@ impl DistanceField {
         if self.distances.len() != count {
             return bad(format!("expected {count} distances, found {}", self.distances.len()));
         }
-        let whole = self.corner.iter().chain(&self.distances).all(|v| v.is_finite());
-        if !whole || !self.edge.is_finite() || self.edge <= 0.0 {
-            return bad("expected finite values and an edge above 0".into());
+        // Beyond this, products in the shader may overflow. Comparisons with NaN are false.
+        let near = self.corner.iter().all(|v| v.abs() <= GREATEST);
+        let good = self.distances.iter().all(|v| v.is_finite() && *v >= -GREATEST);
+        if !near || !good || !(1.0e-12..=GREATEST).contains(&self.edge) {
+            let why = "expected a corner within ±1e12, an edge of 1e-12 to 1e12, \
+                       and finite distances from -1e12 on";
+            return bad(why.into());
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::contract::Slot;
 use crate::error::Error;
-use crate::water::settings::range;
+use crate::water::settings::{GREATEST, range};
 
 crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep<'_>);
 
@@ -149,14 +149,14 @@ pub enum Solid {
     Plane {
         /// Normal, of unit length.
         normal: [f32; 3],
-        /// Distance of the plane from the origin along the normal, scene units.
+        /// Distance of the plane from the origin along the normal, scene units, [-1e12, 1e12].
         distance: f32,
     },
     /// An oriented box.
     Box {
-        /// Centre.
+        /// Centre, scene units, each component [-1e12, 1e12].
         center: [f32; 3],
-        /// Half-extents.
+        /// Half-extents, scene units, each [0, 1e12].
         half_extents: [f32; 3],
         /// Orientation: a unit quaternion, the real part last.
         rotation: [f32; 4],
@@ -174,18 +174,21 @@ pub(super) struct GpuSolid {
 
 impl Solid {
     pub(super) fn check(&self) -> Result<(), Error> {
-        let whole = |all: &[f32]| all.iter().all(|v| v.is_finite());
+        // Beyond this, squares and products in the shader may overflow. Comparisons with NaN are false.
+        let near = |all: &[f32]| all.iter().all(|v| v.abs() <= GREATEST);
         let unit = |all: &[f32]| (all.iter().map(|v| v * v).sum::<f32>() - 1.0).abs() < 1.0e-3;
         let good = match self {
-            Self::Plane { normal, distance } => unit(normal) && distance.is_finite(),
+            Self::Plane { normal, distance } => unit(normal) && near(&[*distance]),
             Self::Box { center, half_extents: half, rotation: turn } => {
-                whole(center) && whole(half) && half.iter().all(|v| *v >= 0.0) && unit(turn)
+                near(center) && near(half) && half.iter().all(|v| *v >= 0.0) && unit(turn)
             }
         };
         if good {
             return Ok(());
         }
-        let why = format!("expected finite values and a unit normal or rotation, found {self:?}");
+        let why = format!(
+            "expected numbers within ±1e12, half-extents of at least 0, and a unit normal or rotation, found {self:?}"
+        );
         Err(Error::bad("BlobSimulationStep.solids", why))
     }
 

@@ -208,8 +208,9 @@ impl Generator {
     /// [`record_restore`](Self::record_restore), in this run or in another one with the same configuration, the
     /// sequence continues from this state as if it had not been interrupted.
     ///
-    /// # Safety The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a
-    /// multiple of 4) on, and no pending access (a barrier before this copy suffices). The conditions of
+    /// # Safety
+    /// The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4)
+    /// on, and no pending access (a barrier before this copy suffices). The conditions of
     /// [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         // `fresh` stays, so that the next step clears the state even if `cmd` is discarded.
@@ -222,8 +223,9 @@ impl Generator {
     /// Records a copy into the generator from `from`, a buffer that the host owns and in which
     /// [`record_save`](Self::record_save) has saved a state.
     ///
-    /// # Safety The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple
-    /// of 4) on, and no pending writes (a barrier before this copy suffices). The conditions of
+    /// # Safety
+    /// The buffer `from` has transfer-source usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
+    /// and no pending writes (a barrier before this copy suffices). The conditions of
     /// [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
         // A step before is no longer one to take back.

@@ -1,7 +1,7 @@
 //! Compares a step of moving blobs with the CPU twin, and checks invariants of any heap.
 
 use ash::vk;
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3};
 use whitewater::bubbles::{
     BlobSimulation, BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep,
     DistanceField, Solid,
@@ -10,7 +10,7 @@ use whitewater::headless::Bubble;
 use whitewater::{Blobs, Count, Error, Slot};
 
 use crate::hostile::spoil;
-use crate::reference::bubbles::heap::{self as twin, Blob, Plane};
+use crate::reference::bubbles::heap::{self as twin, Blob, Cuboid, Plane};
 use crate::support::device::Gpu;
 use crate::support::host::{HOST_WRITE, Stub};
 use crate::support::rig::stream;
@@ -176,6 +176,148 @@ fn a_step_is_the_twins() {
     }
     println!("speeds: worst {worst:.3} of the bound, {touched} pushed");
     assert!(touched > 200, "only {touched} were pushed");
+}
+
+/// Blobs in and around a box are pushed as the twin says: off its faces, edges and corners, and
+/// also from its middle. In the level box some lie exactly on its mid-planes; in the rotated one
+/// they lie beside these, where rounding does not decide on the side.
+#[test]
+fn a_box_pushes_as_the_twins() {
+    let gpu = Gpu::shared();
+    let settings = BlobSimulationSettings::default().with(|it| it.substeps = 1);
+    let (dt, radius, u) = (1.0 / 240.0_f32, 0.1, crate::support::tolerance::U);
+    let half = Vec3::new(0.3, 0.2, 0.5);
+    let turn = Quat::from_xyzw(0.1, 0.7, -0.5, 0.5).normalize();
+    for (center, turn, beside) in
+        [(Vec3::ZERO, Quat::IDENTITY, 0.0), (Vec3::new(0.3, -0.2, 0.1), turn, 0.01)]
+    {
+        // In the box's own frame; the last one does not touch it.
+        let places = [
+            [0.0, 0.0, 0.0],
+            [0.05, 0.0, 0.0],
+            [0.0, 0.1, 0.1],
+            [0.25, 0.0, 0.0],
+            [0.0, 0.0, 0.45],
+            [-0.28, 0.1, -0.2],
+            [0.36, 0.0, -0.4],
+            [0.34, 0.23, 0.1],
+            [-0.33, -0.23, -0.53],
+            [0.0, -0.26, 0.0],
+            [0.5, 0.5, 0.5],
+        ];
+        let blobs: Vec<_> = (0..)
+            .zip(places)
+            .map(|(id, place)| {
+                let aside = if id == 0 { Vec3::ZERO } else { Vec3::splat(beside) };
+                let at = center + turn * (Vec3::from(place) + aside);
+                Bubble { ball: at.extend(radius).to_array(), turn: [0.0, 0.0, 0.0, 1.0], id }
+            })
+            .collect();
+        let mut running = Running::new(&gpu, &blobs, &[], None);
+        let solid = Solid::Box {
+            center: center.to_array(),
+            half_extents: half.to_array(),
+            rotation: turn.to_array(),
+        };
+        let cuboid = Cuboid {
+            center: center.as_dvec3(),
+            half: half.as_dvec3(),
+            turn: DQuat::from_array(turn.to_array().map(f64::from)),
+        };
+        let before = running.blobs();
+        running.step(dt, &settings, &[solid]).expect("a step");
+        let solids = |place: DVec3| vec![cuboid.out_of(place)];
+        let expected = twin::part_among(&before, &solids, &settings, dt.into());
+        // As for planes, but a blob may lie as deep as half the box's shortest edge, and overlaps
+        // several others.
+        let push = f64::from(settings.solidity * (radius + half.min_element()))
+            + 8.0 * f64::from(settings.stiffness * radius);
+        let bound = 64.0 * u * (push * f64::from(dt) + 20.0);
+        for (i, (found, expected)) in running.blobs().iter().zip(&expected).enumerate() {
+            let off = [found.speed - expected.speed, found.spin - expected.spin];
+            assert!(off[0].length() < bound, "{i}: {found:?}, {expected:?}");
+            assert!(off[1].length() < 8.0 * bound / found.radius, "{i}: {found:?}, {expected:?}");
+            let bound = bound * f64::from(dt) + 4.0 * u * expected.place.length();
+            assert!(found.place.distance(expected.place) < bound, "{i}: {found:?}, {expected:?}");
+        }
+    }
+}
+
+/// A blob in the middle of a box, as near to both sides of it, leaves it.
+#[test]
+fn a_blob_amid_a_box_leaves_it() {
+    let gpu = Gpu::shared();
+    let settings = BlobSimulationSettings::default().with(|it| it.gravity = [0.0; 3]);
+    let ball = [0.0, 1.0, 0.0, 0.1];
+    let blob = Bubble { ball, turn: [0.0, 0.0, 0.0, 1.0], id: 0 };
+    let mut running = Running::new(&gpu, &[blob], &[], None);
+    let solid = Solid::Box {
+        center: [0.0, 1.0, 0.0],
+        half_extents: [0.3, 0.2, 0.5],
+        rotation: [0.0, 0.0, 0.0, 1.0],
+    };
+    for _ in 0..30 {
+        running.step(1.0 / 60.0, &settings, &[solid]).expect("a step");
+    }
+    let end = running.blobs()[0].place;
+    assert!(end.y > 1.2 + 0.8 * 0.1, "it is still at {end}");
+}
+
+/// Solids as far off and as large as they may be leave a blob finite.
+#[test]
+fn the_largest_solids_leave_a_blob_finite() {
+    let gpu = Gpu::shared();
+    let settings = BlobSimulationSettings::default().with(|it| {
+        it.solidity = 1.0e5;
+        it.solid_damping = 200.0;
+        it.friction = 10.0;
+    });
+    let most = 1.0e12;
+    let rotation = Quat::from_xyzw(0.1, 0.7, -0.5, 0.5).normalize().to_array();
+    let cube =
+        |center: [f32; 3], edge: f32| Solid::Box { center, half_extents: [edge; 3], rotation };
+    for solid in [
+        Solid::Plane { normal: [0.6, 0.8, 0.0], distance: most },
+        Solid::Plane { normal: [0.6, 0.8, 0.0], distance: -most },
+        cube([most; 3], 0.0),
+        cube([-most, most, most], most),
+        cube([0.0; 3], most),
+    ] {
+        let mut running = Running::new(&gpu, &cloud(1, [1.0; 3], [0.02, 0.1], 3), &[], None);
+        for dt in [1.0 / 60.0, 1.0] {
+            running.step(dt, &settings, &[solid]).expect("a step");
+        }
+        let blob = running.blobs()[0];
+        let finite = [blob.place, blob.speed, blob.spin].iter().all(|v| v.is_finite());
+        assert!(finite, "{solid:?}: {blob:?}");
+    }
+}
+
+#[test]
+fn fields_out_of_their_ranges_are_errors() {
+    let gpu = Gpu::shared();
+    let made = |field: &DistanceField| {
+        let heap = BlobSimulation::new(&gpu.context(1), &BlobSimulationConfig::new(1), Some(field));
+        // SAFETY: nothing was recorded.
+        heap.map(|heap| unsafe { heap.destroy() })
+    };
+    let good =
+        DistanceField { points: [2; 3], corner: [0.0; 3], edge: 1.0, distances: vec![1.0; 8] };
+    let distances = |d: f32| DistanceField { distances: vec![d; 8], ..good.clone() };
+    assert!(made(&good).is_ok() && made(&distances(f32::MAX)).is_ok());
+    for bad in [
+        DistanceField { corner: [0.0, 1.0e38, 0.0], ..good.clone() },
+        DistanceField { edge: 1.0e-40, ..good.clone() },
+        DistanceField { edge: f32::NAN, ..good.clone() },
+        distances(-1.0e38),
+        distances(f32::NAN),
+    ] {
+        let result = made(&bad);
+        assert!(
+            matches!(result, Err(Error::BadInput { field: "DistanceField", .. })),
+            "{bad:?}: {result:?}"
+        );
+    }
 }
 
 #[test]
@@ -418,8 +560,18 @@ fn what_is_no_blob_and_none_do_nothing() {
         );
     }
     let flat = Solid::Plane { normal: [0.0; 3], distance: 0.0 };
+    let deep = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: -1.0e38 };
+    let cube = |center: [f32; 3], edge: f32| Solid::Box {
+        center,
+        half_extents: [edge; 3],
+        rotation: [0.0, 0.0, 0.0, 1.0],
+    };
     for (field, dt, solids) in [
         ("BlobSimulationStep.solids", 0.01, vec![flat]),
+        ("BlobSimulationStep.solids", 0.01, vec![deep]),
+        ("BlobSimulationStep.solids", 0.01, vec![cube([1.0e38, 0.0, 0.0], 1.0)]),
+        ("BlobSimulationStep.solids", 0.01, vec![cube([0.0; 3], 1.0e38)]),
+        ("BlobSimulationStep.solids", 0.01, vec![cube([0.0; 3], -1.0)]),
         ("BlobSimulationStep.solids", 0.01, vec![FLOOR; 65]),
         ("BlobSimulationStep.dt", f32::NAN, vec![]),
     ] {

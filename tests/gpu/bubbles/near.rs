@@ -238,6 +238,22 @@ fn where_blobs_have_no_room_sprites_stay() {
     assert_eq!(none.output.data, cloud.shot.color);
 }
 
+/// Foam so near to the end of the cross-fade that nothing of it is a blob yet is not counted as
+/// invalid blobs.
+#[test]
+fn foam_that_is_no_blob_yet_is_not_invalid() {
+    let gpu = Gpu::shared();
+    let mut cloud = Cloud::new(6, |_| 2.0);
+    // A smooth step rounds to 1 at less than 8e-5 before its end.
+    let eye: Vec<_> = (1..=6).map(|i| [0.0, 0.0, 3.0 - 1.0e-5 * i as f32]).collect();
+    cloud.positions = scenes::world(&cloud.shot.camera, &eye);
+    let over = bubbles(8).with(|it| it.crossfade = true);
+    let drawn = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, over), 1));
+    let [_, _, seen, dropped, _] = drawn.soap.as_ref().expect("bubble foam").range;
+    assert!(seen < 6, "all of them are blobs");
+    assert_eq!(dropped, 0);
+}
+
 /// A dense patch of foam around `from` in eye space, and a sun that casts its shadow on a wall.
 /// Returns also the patch's mean distance.
 fn shading(from: [f32; 3]) -> (Cloud, f64) {

@@ -84,6 +84,26 @@ fn a_lone_blob_becomes_a_clump() {
     }
 }
 
+/// A step of no time begins no split, because a half without radius would never grow.
+#[test]
+fn no_time_splits_nothing() {
+    let gpu = Gpu::shared();
+    let mut running = Running::halving(&gpu, &[one(0.1)], 1);
+    let patient = free().with(|it| it.split_delay = 10.0);
+    let hasty = free().with(|it| it.split_delay = 0.0);
+    running.step(DT, &patient, &[]).expect("a step");
+    // It has been alone for a step, long enough for these settings.
+    running.step(0.0, &hasty, &[]).expect("a step");
+    let whole = volume(&running.blobs());
+    for _ in 0..60 {
+        running.step(DT, &hasty, &[]).expect("a step");
+    }
+    let blobs = running.blobs();
+    assert_eq!(there(&blobs).len(), 2, "{blobs:?}");
+    let volume = volume(&blobs);
+    assert!((volume / whole - 1.0).abs() < 1.0e-5, "{volume} of {whole}");
+}
+
 /// In a heap, exactly those blobs split for which the rule holds.
 #[test]
 fn what_has_enough_beside_it_stays_whole() {

@@ -720,3 +720,49 @@ fn memory_is_by_the_texel() {
         assert!((found - said).abs() < 0.01 * said + 4096.0, "{most}: {found}, said {said}");
     }
 }
+
+/// A block of water before the eye, with whitewater particles 0.1 behind its front.
+fn in_water(foam_at: Option<f32>) -> (Cloud, Config) {
+    let size = extent(48, 32);
+    let mut shot = Shot::new(size, Lens::Standard, 0.0656, &[]);
+    let eye = scenes::block(7, 0.1, [22, 15, 12], [-1.05, -0.7, 2.0]);
+    shot.positions = scenes::world(&shot.camera, &eye);
+    let mut case = water(shot);
+    let near = |z: f32, at: f32| (z - at).abs() < 0.06;
+    if let Some(at) = foam_at {
+        for (amount, [.., z]) in case.amounts.iter_mut().zip(&eye) {
+            amount[0] = if near(*z, at) { 1.0 } else { 0.0 };
+        }
+    }
+    let mut random = Random(5);
+    let mut inside = || [random.between(-0.8, 0.8), random.between(-0.5, 0.5), 2.1];
+    let inside: Vec<_> = (0..400).map(|_| inside()).collect();
+    let positions = scenes::world(&case.shot.camera, &inside);
+    let cloud = Cloud::of(case, positions, 0.04);
+    (cloud, config(size))
+}
+
+/// Submerged whitewater is as deep in the water whether or not the water's particles may foam, and surface foam whether
+/// or not there may be whitewater.
+#[test]
+fn foam_in_water_is_as_deep_beside_other_foam() {
+    let gpu = Gpu::shared();
+    let draw = |cloud: &Cloud, config: Config, with: bool| {
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let particles = with.then(|| rig.whitewater(&cloud.input()));
+        cloud.draw_with(&mut rig, particles.as_ref().map(|own| own.particles())).output
+    };
+    for sheets in [1, 2] {
+        let (cloud, config) = in_water(None);
+        let config = whitewater_config(config.with(|it| it.sheets = sheets), 400);
+        let alone = draw(&cloud, config, true);
+        assert!(alone != draw(&cloud, config, false), "it shows");
+        let beside = draw(&cloud, config.with(|it| it.surface_foam = true), true);
+        compare::same_but_rounded(&format!("sunk-{sheets}"), &beside, &alone);
+        let (cloud, config) = in_water(Some(2.3));
+        let config = config.with(|it| (it.sheets, it.surface_foam) = (sheets, true));
+        let alone = draw(&cloud, config, false);
+        let beside = draw(&cloud, whitewater_config(config, 400), false);
+        compare::same_but_rounded(&format!("deep-{sheets}"), &beside, &alone);
+    }
+}

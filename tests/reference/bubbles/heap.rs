@@ -1,7 +1,7 @@
-//! Twin of moving blobs: forces between pairs and from planes, the order of a substep, and the
+//! Twin of moving blobs: forces between pairs and from solids, the order of a substep, and the
 //! energy.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use whitewater::bubbles::BlobSimulationSettings;
 
 /// A blob.
@@ -21,6 +21,36 @@ impl Blob {
 
 /// A plane: its normal and its distance from the origin.
 pub type Plane = (DVec3, f64);
+
+/// A box: its centre, half its edges, and its rotation to the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Cuboid {
+    pub center: DVec3,
+    pub half: DVec3,
+    pub turn: DQuat,
+}
+
+impl Cuboid {
+    /// Direction out of the box at a place, and the place's distance from it. Inside, the distance
+    /// is negative, and the direction is that of the nearest face: of two opposite ones that are
+    /// equally near, the positive one; of several axes, the first.
+    pub fn out_of(&self, place: DVec3) -> (DVec3, f64) {
+        let own = self.turn.conjugate() * (place - self.center);
+        let nearest = own.clamp(-self.half, self.half);
+        if nearest != own {
+            let off = own - nearest;
+            return (self.turn * (off / off.length()), off.length());
+        }
+        let inside = self.half - own.abs();
+        let axis = match inside {
+            v if v.x <= v.y.min(v.z) => 0,
+            v if v.y <= v.z => 1,
+            _ => 2,
+        };
+        let face = if own[axis] < 0.0 { -DVec3::AXES[axis] } else { DVec3::AXES[axis] };
+        (self.turn * face, -inside[axis])
+    }
+}
 
 /// Factor of a ball's inverse moment of inertia.
 const ROUND: f64 = 2.5;
@@ -51,8 +81,22 @@ fn pair(own: &Blob, other: &Blob, s: &BlobSimulationSettings) -> Option<(DVec3, 
     Some((speed, share * ROUND / own.radius * n.cross(across)))
 }
 
-/// One substep.
+/// One substep among planes.
 pub fn part(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings, dt: f64) -> Vec<Blob> {
+    let solids = |place: DVec3| -> Vec<(DVec3, f64)> {
+        planes.iter().map(|(n, distance)| (*n, n.dot(place) - distance)).collect()
+    };
+    part_among(blobs, &solids, s, dt)
+}
+
+/// One substep. `solids` returns, for a place, the direction out of each solid and the distance
+/// from it.
+pub fn part_among(
+    blobs: &[Blob],
+    solids: &dyn Fn(DVec3) -> Vec<(DVec3, f64)>,
+    s: &BlobSimulationSettings,
+    dt: f64,
+) -> Vec<Blob> {
     let gravity = glam::Vec3::from(s.gravity).as_dvec3();
     let one = |(i, own): (usize, &Blob)| {
         let (mut speed, mut spin) = (DVec3::ZERO, DVec3::ZERO);
@@ -66,22 +110,22 @@ pub fn part(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings, dt: f6
         let mut new = *own;
         new.speed = (own.speed + dt * (speed + gravity)) / drag;
         new.spin = (own.spin + dt * spin) / drag;
-        for (n, distance) in planes {
-            let deep = f64::from(s.contact) * own.radius - (n.dot(own.place) - distance);
+        for (n, away) in solids(own.place) {
+            let deep = f64::from(s.contact) * own.radius - away;
             if deep <= 0.0 {
                 continue;
             }
-            let parting = new.speed.dot(*n);
+            let parting = new.speed.dot(n);
             let press = f64::from(s.solidity) * deep - f64::from(s.solid_damping) * parting;
             let gained = (dt * press).max(0.0);
-            new.speed += gained * *n;
-            let mut slip = new.speed + new.spin.cross(-own.radius * *n);
-            slip -= slip.dot(*n) * *n;
+            new.speed += gained * n;
+            let mut slip = new.speed + new.spin.cross(-own.radius * n);
+            slip -= slip.dot(n) * n;
             let fast = slip.length();
             let held = (f64::from(s.friction) * gained).min(fast / (1.0 + ROUND));
             let change = if fast > 0.0 { -held / fast * slip } else { DVec3::ZERO };
             new.speed += change;
-            new.spin += ROUND / own.radius * (-*n).cross(change);
+            new.spin += ROUND / own.radius * (-n).cross(change);
         }
         let most = own.radius / dt;
         new.speed *= (most / new.speed.length().max(1e-20)).min(1.0);

@@ -47,14 +47,10 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
     let towards = if along.z > 0.0 { 0.75 * z / along.z } else { f64::INFINITY };
     let start = on_screen(view, from);
     let way = on_screen(view, from + along * towards.min(64.0 * z)) - start;
-    // To the centre of the last pixel in this direction.
+    // To the centre of the last pixel in this direction. A ray that stays in its column, or row, never leaves it there.
     let end = |axis: usize| {
         let edge = if way[axis] > 0.0 { extent[axis] - 0.5 } else { 0.5 };
-        if way[axis].abs() < 1e-6 {
-            1e6 * (edge - start[axis])
-        } else {
-            (edge - start[axis]) / way[axis]
-        }
+        if way[axis].abs() < 1e-6 { f64::INFINITY } else { (edge - start[axis]) / way[axis] }
     };
     let whole = end(0).min(end(1)).clamp(0.0, 1.0);
     let pixels = whole * way.truncate().length();

@@ -81,9 +81,12 @@ pub struct Particle {
     pub id: u32,
 }
 
-/// U: sums of speeds are multiples of this on the GPU; in scene units per second.
-pub fn unit(spacing: f32) -> f64 {
-    (9.81 * f64::from(spacing)).sqrt() / 256.0
+/// U: sums of speeds are multiples of this on the GPU; in scene units per second. It goes by |g| s;
+/// without gravity |g| is taken as 9.81.
+pub fn unit(settings: &Settings) -> f64 {
+    let gravity = DVec3::from(settings.gravity.map(f64::from));
+    let pull = if gravity == DVec3::ZERO { 9.81 } else { gravity.length() };
+    (pull * f64::from(settings.spacing)).sqrt() / 256.0
 }
 
 /// h, the support of the sums in scene units.

@@ -24,14 +24,15 @@ pub struct Carried {
 }
 
 /// The fluid around a position.
-pub fn carried(position: DVec3, fluid: &Fluid, spacing: f32) -> Carried {
-    carried_by(near(position, spacing, fluid.parts(spacing)), spacing)
+pub fn carried(position: DVec3, fluid: &Fluid, settings: &Settings) -> Carried {
+    let spacing = settings.spacing;
+    carried_by(near(position, spacing, fluid.parts(spacing)), settings)
 }
 
 /// The fluid around a position, from particles that are or may be neighbours. Products saturate as
 /// on the GPU.
-pub(super) fn carried_by(all: impl Iterator<Item = Near>, spacing: f32) -> Carried {
-    let unit = unit(spacing);
+pub(super) fn carried_by(all: impl Iterator<Item = Near>, settings: &Settings) -> Carried {
+    let unit = unit(settings);
     let most = DVec3::splat(MOST_STEPS * unit);
     let (mut neighbours, mut maybe, mut loose) = (0, 0, false);
     let (mut weight, mut sum) = (0.0, DVec3::ZERO);
@@ -65,7 +66,7 @@ pub(super) fn kernel(q: f64) -> f64 {
 /// A particle after a step of dt seconds, and whether rounding may decide on a neighbour, on
 /// whether the weights are 0, on the bounds or on its death. A dead particle has age 1.
 pub fn moved(particle: &Particle, fluid: &Fluid, settings: &Settings, dt: f32) -> (Particle, bool) {
-    let water = carried(particle.position, fluid, settings.spacing);
+    let water = carried(particle.position, fluid, settings);
     moved_in(particle, &water, settings, dt)
 }
 

@@ -1,7 +1,7 @@
 //! Potentials that emit whitewater particles: trapped air, wave crests and energy.
 
 use super::water::{Fluid, Grid, Near, Part};
-use super::{MOST_STEPS, STEP, support, unit};
+use super::{MOST_STEPS, STEP, Settings, support, unit};
 use glam::DVec3;
 use std::f64::consts::SQRT_2;
 
@@ -62,7 +62,8 @@ struct Crest {
 }
 
 /// Potentials of each particle of a fluid; None for invalid ones.
-pub fn potentials(fluid: &Fluid, spacing: f32) -> Vec<Option<Potentials>> {
+pub fn potentials(fluid: &Fluid, settings: &Settings) -> Vec<Option<Potentials>> {
+    let spacing = settings.spacing;
     let grid = Grid::new(fluid, spacing);
     let others = |part: Part| -> Vec<Near> {
         grid.near(part.position).filter(|near| near.part.index != part.index).collect()
@@ -73,7 +74,7 @@ pub fn potentials(fluid: &Fluid, spacing: f32) -> Vec<Option<Potentials>> {
     }
     let mut potentials = vec![None; fluid.positions.len()];
     for part in fluid.parts(spacing) {
-        potentials[part.index] = Some(of(part, &others(part), &surfaces, spacing));
+        potentials[part.index] = Some(of(part, &others(part), &surfaces, settings));
     }
     potentials
 }
@@ -98,12 +99,12 @@ fn surface(others: &[Near], spacing: f32) -> Surface {
 }
 
 /// Potentials of one particle, from the others near it and all particles' surfaces.
-fn of(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Potentials {
+fn of(part: Part, others: &[Near], surfaces: &[Surface], settings: &Settings) -> Potentials {
     let neighbours = others.iter().filter(|near| near.counts());
     let own = surfaces[part.index];
-    let crest = crest(part, others, surfaces, spacing);
+    let crest = crest(part, others, surfaces, settings.spacing);
     Potentials {
-        trapped_air: neighbours.clone().map(|near| trapped(part.velocity, near, spacing)).sum(),
+        trapped_air: neighbours.clone().map(|near| trapped(part.velocity, near, settings)).sum(),
         wave_crest: crest.sum,
         energy: 0.5 * part.velocity.length_squared(),
         neighbours: neighbours.count() as u32,
@@ -115,14 +116,14 @@ fn of(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Potent
 }
 
 /// Air that a particle with this velocity traps with a neighbour. It saturates like on the GPU.
-fn trapped(velocity: DVec3, near: &Near, spacing: f32) -> f64 {
+fn trapped(velocity: DVec3, near: &Near, settings: &Settings) -> f64 {
     let apart = velocity - near.part.velocity;
     if near.offset == DVec3::ZERO || apart == DVec3::ZERO {
         return 0.0;
     }
     let cosine = apart.normalize().dot(near.offset.normalize());
     let term = apart.length() * (1.0 - cosine) * near.weight();
-    term.min(MOST_STEPS * unit(spacing))
+    term.min(MOST_STEPS * unit(settings))
 }
 
 fn crest(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Crest {

@@ -21,14 +21,14 @@ impl Slots {
     pub fn step(&mut self, fluid: &Fluid, settings: &Settings, dt: f32, number: u32) {
         let grid = Grid::new(fluid, settings.spacing);
         for particle in &mut self.particles {
-            let water = carried_by(grid.near(particle.position), settings.spacing);
+            let water = carried_by(grid.near(particle.position), settings);
             (*particle, _) = moved_in(particle, &water, settings, dt);
         }
         let high = self.particles.len();
         let mut free =
             (0..high).filter(|slot| self.particles[*slot].age >= 1.0).collect::<Vec<_>>();
         free.reverse();
-        for (i, p) in potentials(fluid, settings.spacing).iter().enumerate() {
+        for (i, p) in potentials(fluid, settings).iter().enumerate() {
             let Some(p) = p else { continue };
             for k in 0..count(wanted(p, settings, dt), settings, fluid.ids[i], number) {
                 let particle = newborn(fluid, i, p, k, settings, dt, number);

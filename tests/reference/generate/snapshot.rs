@@ -93,7 +93,7 @@ impl<'a> Snapshot<'a> {
     pub fn new(fluid: &'a Fluid, settings: &'a Settings, number: u32) -> Self {
         let parts = fluid.parts(settings.spacing);
         let fastest = parts.map(|part| part.velocity.length()).fold(0.0, f64::max);
-        let potentials = potentials(fluid, settings.spacing);
+        let potentials = potentials(fluid, settings);
         let rate = |p: &Option<Potentials>| {
             p.as_ref().map(|p| rate(p, settings, fastest)).unwrap_or_default()
         };
@@ -206,7 +206,7 @@ impl<'a> Snapshot<'a> {
     /// The water at a position with this error in scene units.
     fn water(&self, place: DVec3, off: f64) -> Water {
         let support = support(self.settings.spacing);
-        let unit = unit(self.settings.spacing);
+        let unit = unit(self.settings);
         let known = off < FARTHEST * support;
         let off = if known { off / support + ROUNDING } else { 0.0 };
         let near = self.grid.within(place, 1.0 + off).collect::<Vec<_>>();
@@ -299,7 +299,7 @@ fn rate(p: &Potentials, settings: &Settings, fastest: f64) -> Bounded {
     let sum_off = |x: f64, limits: [f32; 2]| FLOAT * (1.0 + x + f64::from(limits[0]).abs());
     // A particle that may or may not be a neighbour has at most the weight near the support's edge.
     let edge = if p.loose { 1e-4 * fastest * f64::from(1 + p.neighbours) } else { 0.0 };
-    let air = 0.5 * f64::from(p.neighbours) * unit(settings.spacing)
+    let air = 0.5 * f64::from(p.neighbours) * unit(settings)
         + sum_off(p.trapped_air, settings.trapped_air)
         + edge;
     let crest = 0.5 * f64::from(p.crest_terms) * STEP

@@ -39,7 +39,7 @@ fn still(positions: &[[f32; 3]]) -> Fluid {
 
 /// The potentials of a fluid whose particles are all valid.
 fn all(fluid: &Fluid) -> Vec<Potentials> {
-    potentials(fluid, SPACING).into_iter().map(|p| p.expect("it takes part")).collect()
+    potentials(fluid, &settings()).into_iter().map(|p| p.expect("it takes part")).collect()
 }
 
 /// Potentials of a particle without trapped air, crest and neighbours.
@@ -109,9 +109,19 @@ fn air_is_trapped_by_what_comes_together() {
     close(air([[5.0, 1.0, 0.0]; 2]), 0.0);
     close(air([[0.0, 2.0, 0.0], [0.0; 3]]), 1.0);
     close(air([[1.0, 0.0, 3.0_f32.sqrt()], [0.0; 3]]), 1.5);
-    // A term is at most 2^17 steps: 512 sqrt(9.81 s).
-    close(air([[1e9, 0.0, 0.0], [0.0; 3]]), 1_133.938_411_025_925_2);
-    assert!(air([[1133.0, 0.0, 0.0], [0.0; 3]]) < 1133.5);
+    // A term is at most 2^17 steps: 512 sqrt(10 s).
+    close(air([[1e9, 0.0, 0.0], [0.0; 3]]), 1_144.866_804_479_892_4);
+    assert!(air([[1144.0, 0.0, 0.0], [0.0; 3]]) < 1144.5);
+}
+
+/// The limit grows with gravity and spacing, so it is the same speed in every unit of length.
+#[test]
+fn the_limit_of_speeds_goes_by_gravity() {
+    let limit = |gravity, spacing| 131_072.0 * unit(&Settings { gravity, spacing, ..settings() });
+    close(limit([0.0, -3.0, 4.0], 0.5), 809.543_081_003_105_2);
+    close(limit([0.0; 3], 0.5), 1_133.938_411_025_925_2);
+    let [one, other] = [1.0_f32, 1024.0].map(|m| limit([0.0, -9.75 * m, 0.0], 0.5 * m));
+    close(1024.0 * one, other);
 }
 
 #[test]
@@ -136,7 +146,10 @@ fn each_neighbour_traps_air() {
 #[test]
 fn sums_go_by_the_support() {
     let pair = fluid(&[([0.0; 3], [2.0, 0.0, 0.0]), ([0.5, 0.0, 0.0], [0.0; 3])]);
-    let air = |spacing| potentials(&pair, spacing)[0].map(|p| (p.neighbours, p.trapped_air));
+    let air = |spacing| {
+        let settings = Settings { spacing, ..settings() };
+        potentials(&pair, &settings)[0].map(|p| (p.neighbours, p.trapped_air))
+    };
     assert_eq!(air(1.0), Some((1, 3.0)));
     assert_eq!(air(0.5), Some((1, 2.0)));
     // At a distance of exactly the support there is no neighbour.
@@ -265,7 +278,7 @@ fn normals_of_whole_steps_are_as_near_as_said() {
             (w > 0.0 && m.length() > 0.15 * w).then(|| m.as_vec3().normalize().as_dvec3());
     }
     let (mut crests, mut looses) = (0, 0);
-    for (p, index) in potentials(&fluid, SPACING).iter().zip(0..) {
+    for (p, index) in potentials(&fluid, &settings()).iter().zip(0..) {
         let Some(p) = p else { continue };
         looses += u32::from(p.loose);
         if p.loose {
@@ -499,30 +512,30 @@ fn near_water_weighs_more() {
     particles.extend(ring(2, 0.5, [0.0; 3]));
     particles.extend(ring(2, 0.75, slow));
     particles.extend(ring(4, 1.01, [9.0; 3]));
-    let around = carried(DVec3::ZERO, &fluid(&particles), SPACING);
+    let around = carried(DVec3::ZERO, &fluid(&particles), &settings());
     let sum = 3.0 * 0.71875 + 2.0 * 0.25 + 2.0 * 0.03125;
     close(around.weight, sum);
     close_all(around.velocity, [3.0 * 0.71875 / sum, 8.0 * 0.03125 / sum, 0.0]);
     assert_eq!((around.neighbours, around.loose), (7, false));
-    // The error is 7 half steps of U = sqrt(4.905) / 256, and a tenth of that from the weights.
-    assert!((around.off * sum / 3.5 / unit(SPACING) - 1.0).abs() < 0.002, "{}", around.off);
+    // The error is 7 half steps of U = sqrt(5) / 256, and a tenth of that from the weights.
+    assert!((around.off * sum / 3.5 / unit(&settings()) - 1.0).abs() < 0.002, "{}", around.off);
     assert_eq!(kernel_at(0.0), 1.0);
     // A component is limited to 2^17 steps in both directions.
     let fast = fluid(&ring(1, 0.5, [1e9, -1e9, 0.0]));
-    let most = 1_133.938_411_025_925_2 / 0.25;
-    close_all(carried(DVec3::ZERO, &fast, SPACING).velocity, [most, -most, 0.0]);
+    let most = 1_144.866_804_479_892_4 / 0.25;
+    close_all(carried(DVec3::ZERO, &fast, &settings()).velocity, [most, -most, 0.0]);
 }
 
 /// K of one neighbour at this distance.
 fn kernel_at(distance: f64) -> f64 {
-    carried(DVec3::ZERO, &fluid(&ring(1, distance, [0.0; 3])), SPACING).weight
+    carried(DVec3::ZERO, &fluid(&ring(1, distance, [0.0; 3])), &settings()).weight
 }
 
 #[test]
 fn water_of_no_weight_carries_by_chance() {
     // K is 2e-6 for each neighbour, and a step is 15e-6.
     let water = fluid(&ring(6, 0.99, [1.0, 0.0, 0.0]));
-    let around = carried(DVec3::ZERO, &water, SPACING);
+    let around = carried(DVec3::ZERO, &water, &settings());
     close_all(around.velocity, [1.0, 0.0, 0.0]);
     assert!(around.off.is_infinite() && !around.loose);
     assert!(moved(&foam([0.0; 3], [0.0; 3]), &water, &settings(), 0.125).1);
@@ -611,7 +624,7 @@ fn one_is_gone_out_of_bounds() {
     assert!(back(0.5 + 4e-7) && !back(0.5 + 6e-7));
     // For foam the error includes that of the water's velocity.
     let water = fluid(&ring(6, 0.9, [1.0, 0.0, 0.0]));
-    let off = carried(DVec3::ZERO, &water, SPACING).off;
+    let off = carried(DVec3::ZERO, &water, &settings()).off;
     assert!(off > 0.01);
     let above =
         |part: f64| moved(&foam([0.0; 3], [0.0; 3]), &water, &with_top(1.0 + part * off), 1.0).1;
@@ -652,14 +665,14 @@ fn what_is_nowhere_takes_no_part() {
         (there, [0.0, 0.0, -1e18]),
     ] {
         let three = fluid(&[pair[0], odd, pair[1]]);
-        let p = potentials(&three, SPACING);
+        let p = potentials(&three, &settings());
         let [a, b] = [0, 1].map(|i| all(&fluid(&pair))[i]);
         assert_eq!(p, [Some(a), None, Some(b)], "{odd:?}");
-        assert_eq!(carried(DVec3::ZERO, &three, SPACING).neighbours, 2);
+        assert_eq!(carried(DVec3::ZERO, &three, &settings()).neighbours, 2);
     }
     // These particles are still valid.
     for odd in [([0.0, 0.999 * far, 0.0], up), (there, [0.0, 0.99e18, 0.0])] {
-        assert!(potentials(&fluid(&[pair[0], odd]), SPACING)[1].is_some(), "{odd:?}");
+        assert!(potentials(&fluid(&[pair[0], odd]), &settings())[1].is_some(), "{odd:?}");
     }
     // Invalid particles do not create any.
     let violent = Settings { energy: [-2.0, -1.0], trapped_air: [-2.0, -1.0], ..settings() };
@@ -729,7 +742,7 @@ fn slots_move_by_all_of_the_water() {
     }
     assert!(kinds.iter().all(|n| *n > 10), "{kinds:?}");
     // No slot was free.
-    let p = potentials(&water, SPACING);
+    let p = potentials(&water, &settings());
     let born = p.iter().zip(&water.ids).map(|(p, id)| {
         let n = p.map_or(0.0, |p| wanted(&p, &settings(), 0.125));
         u64::from(count(n, &settings(), *id, 9))
@@ -742,8 +755,8 @@ fn slots_move_by_all_of_the_water() {
 fn water_is_found_either_way() {
     let water = random_fluid(300);
     let grid = Grid::new(&water, SPACING);
-    let quickly = carried_by(grid.near(DVec3::splat(1.5)), SPACING);
-    let slowly = carried(DVec3::splat(1.5), &water, SPACING);
+    let quickly = carried_by(grid.near(DVec3::splat(1.5)), &settings());
+    let slowly = carried(DVec3::splat(1.5), &water, &settings());
     assert_eq!(quickly.neighbours, slowly.neighbours);
     close_all(quickly.velocity, slowly.velocity.to_array());
 }

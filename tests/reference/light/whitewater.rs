@@ -4,6 +4,7 @@
 //! position along the light, rounded to a whole number of texels k. For each texel the particles
 //! contribute amounts `a` with their k; each contribution is known as a range of both. The map
 //! contains the mean of `a`, and the mean and the deviation of k weighted by `a`, over 3x3 texels.
+//! Positions are in units of a power of two, [`Light::whitewater_unit`].
 
 use super::super::Image;
 use super::super::whitewater::{Attenuation, Kind, Particle, Settings};
@@ -149,6 +150,14 @@ impl Disc {
 }
 
 impl Light {
+    /// Unit of positions in the map, in scene units: the largest power of two that is no longer
+    /// than a texel, which is rounded to single precision.
+    pub fn whitewater_unit(&self) -> f64 {
+        let texel = f64::from(self.texel() as f32);
+        let near = texel.log2().round().exp2();
+        if near > texel { 0.5 * near } else { near }
+    }
+
     /// The three channels of the map, with and without their rounding to half precision. `front`:
     /// map of the first water.
     pub fn whitewater(
@@ -187,7 +196,7 @@ impl Light {
             .map(|i| Between { low: all.map(|ends| ends[i][0]), high: all.map(|ends| ends[i][1]) })
     }
 
-    /// Sum, mean and deviation (in scene units) of weighted contributions.
+    /// Sum, mean and deviation (in units of the map) of weighted contributions.
     ///
     /// If the contributions err by e, a mean changes by `sum e |k - mean| / sum a`. The variance
     /// changes likewise, minus the square of the mean's change. Quotients in single precision add a
@@ -204,7 +213,7 @@ impl Light {
         if most == 0.0 {
             return [[0.0; 2]; 3];
         }
-        let (t, n) = (self.texel(), self.texels as f64);
+        let (t, n) = (self.texel() / self.whitewater_unit(), self.texels as f64);
         if least == 0.0 {
             // There may be no contribution at all.
             let ends =
@@ -241,7 +250,9 @@ impl Light {
     /// Fraction of sunlight that whitewater particles block at a distance along the light, from a
     /// texel of their map.
     pub(super) fn covered(&self, [rho, mean, spread, _]: [f32; 4], d: Rounded) -> Rounded {
-        let [rho, mean, spread] = [rho, mean, spread].map(|v| exact(f64::from(v)));
+        let unit = self.whitewater_unit();
+        let [mean, spread] = [mean, spread].map(|v| unit * f64::from(v));
+        let [rho, mean, spread] = [f64::from(rho), mean, spread].map(exact);
         let reach = off(0.5 * self.spacing, 2.0) + off(1.5 * self.texel(), 4.0);
         let behind = (d - mean - reach).clamp(0.0, f64::INFINITY);
         let square = behind * behind;

@@ -326,7 +326,7 @@ fn ways_of_whole_steps_are_as_near_as_said() {
     let water = random_fluid(1200);
     let snapshot = Snapshot::new(&water, &settings, 5);
     let rates = snapshot.rates.iter().map(|rate| rate.is as f32).collect::<Vec<_>>();
-    let unit = unit(SPACING) as f32;
+    let unit = unit(&settings) as f32;
     let most_rate = 30.0 / 65536.0_f32;
     let parts = water.parts(SPACING).collect::<Vec<_>>();
     let (mut sure, mut all) = (0, 0);
