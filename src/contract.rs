@@ -272,9 +272,10 @@ pub struct Config {
     /// GPU memory per pixel of [`extent`](Self::extent).
     pub whitewater: Option<WhitewaterConfig>,
     /// Whether blobs of bubble foam (balls of soap bubbles) are drawn ([`Frame::bubbles`]): the passes `blobs`,
-    /// `peel`, `soap`, `cast` with [`light_map_size`](Self::light_map_size), and `near` if the blobs are made from
-    /// whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not drawn. They take
-    /// `18½ + 4·layers` more bytes of GPU memory per pixel, and 64 per blob (100 with `crossfade`).
+    /// `peel` and `soap`; also `cast` if [`light_map_size`](Self::light_map_size) is set, and `near` if the blobs are
+    /// made from whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not drawn. They
+    /// take `18½ + 4·layers` more bytes of GPU memory per pixel ([`BubbleConfig::layers`]), and 64 per blob of
+    /// `max_blobs` (100 with `crossfade`).
     pub bubbles: Option<BubbleConfig>,
     /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shore-tiles`, `shoreline` and
     /// `contact`. With `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and
@@ -357,7 +358,8 @@ impl Config {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub u32);
 
-/// An image of the host, with the state in which it is passed to `record` and the state in which `record` returns it.
+/// An image of the host, with two states that the host chooses: the one in which it hands the image to `record`, and
+/// the one in which the recorded commands leave the image.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct HostImage {
@@ -1075,7 +1077,8 @@ pub struct Shadow {
     /// perspective, standard or reversed depth. Not read if `image` is a mask.
     pub view_projection: [[f32; 4]; 4],
     /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this distance before they
-    /// are compared with the map. Recommended: about a spacing plus a texel of the map. Not read for a mask.
+    /// are compared with the map. Recommended: about a particle spacing plus the width of a texel of the map. Not
+    /// read if `image` is a mask.
     pub bias: f32,
 }
 
@@ -1407,9 +1410,9 @@ impl Light {
 }
 
 /// An intermediate image of `record` that the host may read. The renderer's next `record` expects it in the layout of
-/// [`access`](Self::access) and overwrites it. The host therefore ends its commands that read the image with a barrier
-/// from this use to `access`. If it reads the image on another queue than that of `record`, it also makes the
-/// submission of the next `record` wait for these commands, with a semaphore for example.
+/// [`access`](Self::access) and may overwrite it. So after its commands that read the image the host records a
+/// barrier from its own use to `access`. If it reads the image on another queue than that of `record`, it also makes
+/// the submission of the next `record` wait for these commands, with a semaphore for example.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {

@@ -29,8 +29,9 @@ pub struct Diagnostics {
     /// then read as indirect arguments and by compute shaders.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness image, row by row: the
-    /// eye depth at which the two layers of water are separated, 1e10 where there is only one layer. The buffer has
-    /// transfer-source usage. In `record` a compute shader writes it, and compute and fragment shaders then read it.
+    /// boundary between the two layers of water, which is an eye depth in the air between them. It is 1e10 where
+    /// there is one layer or none. The buffer has transfer-source usage. In `record` a compute shader writes it, and
+    /// compute and fragment shaders then read it.
     pub sheets: Option<vk::Buffer>,
     /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. These hold the
     /// position where the particle is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to
@@ -87,9 +88,10 @@ pub struct SmoothingLevel {
 }
 
 impl SmoothingLevels {
-    /// Returns which level of the front layer is shown for water at an eye depth on a view ray of a slope, and how
-    /// far the next coarser level has faded in, 0 to 1. The back layer shows the same level, but the second instead
-    /// of the first.
+    /// Returns which level of the front layer is shown for water at an eye depth on a view ray of a slope (0 is the
+    /// first level), and how far the next coarser level has faded in, 0 to 1. For the back layer, pass the eye depth
+    /// of the boundary between the layers. The back layer has no first level: where the result is the first, it shows
+    /// the second, without a fade; otherwise it shows what is returned.
     pub fn shown(&self, depth: f32, slope: [f32; 2]) -> (usize, f32) {
         let [iterations, shape, ..] = self.near;
         let foreshortened = 1.0 + slope[0].powi(2) + (1.0 + slope[1].powi(2)) * shape;

@@ -60,8 +60,8 @@ impl Default for Sky {
 
 /// An equirectangular image. Row 0 is up. For +y up its middle column looks along world −z and the column at three
 /// quarters of the width along +x; left and right edge meet along +z. For another up direction the image rotates with
-/// it: for z up the middle column looks along +y and the one at three quarters still along +x; for x up the column at
-/// three quarters looks along +y and the middle column along +z.
+/// it: for z up the middle column looks along +y and the one at three quarters still along +x; for x up the middle
+/// column looks along +z and the one at three quarters along +y.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {

@@ -491,7 +491,8 @@ impl Headless {
 
     /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a
     /// [`SurfaceFoamState`] from the particles' [`motion`](Self::motion). `dt` is the time since the previous step in
-    /// seconds. If `dt` is `None`, or the motion has no ids, the foam follows from the current particles alone.
+    /// seconds. If `dt` is `None`, or the motion has no ids, earlier steps do not count: the foam of a particle
+    /// follows from its present Weber number alone.
     ///
     /// # Errors
     /// No motion uploaded, no memory, and the errors of [`SurfaceFoamState::record_step`].

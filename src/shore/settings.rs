@@ -12,8 +12,8 @@ crate::contract::with!(ShoreConfig, ShoreSettings, ShorelineSettings, ContactSet
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
-/// Configuration of shoreline and contact foam. It determines what memory and which pipelines are created. Made by
-/// `default()`.
+/// Configuration of shoreline and contact foam. It determines what memory and which pipelines are created.
+/// `default()` makes it, and [`with`](Self::with) changes its fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreConfig {
@@ -207,7 +207,8 @@ pub struct ShorelineSettings {
     /// ([`Area::axes`](super::Area::axes)), scene units per second, [-1000, 1000], default 0.35 and 0.2. The noise
     /// thus moves the opposite way over the water.
     pub texture_warp_velocity: [f32; 2],
-    /// Threshold: there is foam where the mix of waves and foam texture is at least this, [-100, 100], default 0.39.
+    /// Threshold: there is foam where the mix of waves and foam texture is at least this plus
+    /// [`threshold_noise`](Self::threshold_noise). [-100, 100], default 0.39.
     pub threshold: f32,
     /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 (one repetition in 90 scene units).
     pub threshold_noise: Noise,

@@ -18,8 +18,8 @@ pub enum Splat {
     Compute,
 }
 
-/// How the pass `composite` shades the pixels with water, foam or spray: by a render pass or by a compute shader.
-/// Both give the same picture.
+/// How the pass `composite` shades the pixels with water, foam or spray: by fragment shaders in a Vulkan render pass
+/// or by a compute shader. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// The pixels are shaded in a render pass over the tiles that show water, foam, spray, whitewater particles or
@@ -123,8 +123,9 @@ pub enum Rule {
     /// Mean curvature flow that smooths over the same width along the surface ([`WaterSettings::smoothing_width`]) at
     /// any distance and slant.
     ConstantWidth,
-    /// As van der Laan et al. (2009): every pixel with water gets this number of iterations, at most
-    /// [`Config::max_iterations`](crate::Config::max_iterations), with the step of [`Rule::Source`].
+    /// As van der Laan et al. (2009): every pixel with water gets this number of iterations. A number above
+    /// [`Config::max_iterations`](crate::Config::max_iterations) counts as that maximum. The size of a step is that
+    /// of [`Rule::Source`].
     Fixed(u32),
 }
 
@@ -205,8 +206,9 @@ pub struct WaterSettings {
     pub(crate) bed: Bed,
     /// Factor on the displacement, by refraction, of what is seen through the water, [0, ∞), default 0.25. Whatever
     /// the factor, the displacement stays below a sixteenth of the picture's height. With [`Exit::TwoInterfaces`]
-    /// factor and limit do not apply where the water touches the scene: there the displacement follows from the index
-    /// of refraction.
+    /// factor and limit do not apply where there is no air between the water and the scene behind it: there the
+    /// displacement follows from the index of refraction. Where there is air, they apply only to what is seen
+    /// straight behind, not to what is seen along the refracted ray.
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,
@@ -667,8 +669,9 @@ pub struct SurfaceFoamSettings {
     /// thesis. 0 (off, default) to 1. The noise fades out where its cells are narrower than two texels of the
     /// thickness image, and is gone at one. Either this strength or [`pattern`](Self::pattern) has to be 0.
     pub noise: f32,
-    /// Speed at which [`noise`](Self::noise) changes: number of its cells that pass through a sprite per second of
-    /// the particle's age, [0, 1e3], default 2.
+    /// Speed at which [`noise`](Self::noise) changes. A sprite shows a plane section of a three-dimensional noise,
+    /// and this plane moves at right angles to itself: by so many cells of the noise per second of the particle's
+    /// age, [0, 1e3], default 2.
     pub noise_rate: f32,
     /// Strength of a noise that gathers foam into clumps and moves with it, [0, 2], default 1, 0 = off. With 1, about
     /// a tenth of the foam's sprites are at least twice as thick as without the noise, and about a fifth at most a
@@ -892,9 +895,11 @@ pub struct SpraySettings {
     pub clumps: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
     /// fill, [1, 8]. With 1, the default, mist is round, and the droplets of each particle fill a spindle of random
-    /// direction and size. Above 1 the ellipsoid is fitted to the particle's neighbours, of which one suffices, so
-    /// that torn water is strands and sheets of droplets, and groups of two or three particles have next to no mist.
-    /// No effect without [`Kernels::Ellipsoids`], or if [`droplets`](Self::droplets) is 1.
+    /// direction and size. Above 1 the ellipsoid is fitted to the particle's neighbours, so that torn water is
+    /// strands and sheets of droplets; a single neighbour is enough. Then particles with few neighbours also have
+    /// less mist: a lone particle has none, and groups of two or three have next to none. No effect without
+    /// [`Kernels::Ellipsoids`], or if [`droplets`](Self::droplets) is 1, because then a particle is a single droplet
+    /// without mist.
     pub strand_ratio: f32,
     /// Limits [a, b] of the sum of a particle's neighbours' weights (see [`Ellipsoids::reach`]). A particle whose sum
     /// is at most a is only spray, whatever its density, because many solvers write the rest density for a lone drop

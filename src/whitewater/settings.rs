@@ -212,8 +212,9 @@ pub struct WhitewaterSettings {
     /// C_IrrScale (Sec. 2.5) is twice this value.
     pub scale: f32,
     /// Exponents n and m of the thickness `(1 − x^n)^m` of a foam particle, with x the distance from its centre in
-    /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. If any shape, `life`, `sizes` or `bubble_size` differs
-    /// from its default, shaders evaluate a few powers more per pixel.
+    /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. If `foam_shape`, `spray_shape`, `bubble_shape`,
+    /// `life`, `sizes` or `bubble_size` differs from its default, or `submerged` is [`Submerged::Falloff`], shaders
+    /// evaluate a few powers more per pixel of each particle.
     pub foam_shape: [f32; 2],
     /// Exponents n and m of the thickness `(1 − x^n)^m` of a spray particle, with x the distance from its centre in
     /// radii. [0.1, 16], default 1.5 and 1.

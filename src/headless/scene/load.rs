@@ -44,7 +44,8 @@ impl Scene {
         }
     }
 
-    /// Reads the default scene of a glTF file: triangles, base colours, base colour textures and roughness.
+    /// Reads the default scene of a glTF file (`.glb`, or `.gltf` with the files that it names): triangles, base
+    /// colours, base colour textures and roughness. If the file names no default scene, it is the first one.
     ///
     /// # Errors
     /// The file cannot be read, is no glTF 2.0, has no triangles, requires an unsupported extension, or uses an

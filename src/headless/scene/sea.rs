@@ -54,8 +54,9 @@ pub enum Liquid {
     /// Transparent, with the sea's absorption and scattering.
     #[default]
     Water,
-    /// Opaque: a dark crust with glowing cracks. Its glow lights surfaces above its level by an estimate from their
-    /// height and slope alone, as if lava were below them everywhere; otherwise it casts no light.
+    /// Opaque: a dark crust with glowing cracks. Its glow lights the scene's ground and meshes above the level of the
+    /// lava. How strongly is estimated from their height above this level and their slope alone, as if lava were
+    /// below them everywhere. Otherwise lava casts no light.
     Lava {
         /// Radiance of the hottest parts of the lava's cracks, linear RGB in the unit of the output, [0, ∞).
         radiance: [f32; 3],

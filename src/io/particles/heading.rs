@@ -185,9 +185,9 @@ fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
         .then_some((at, row.1))
 }
 
-/// Units of length that files have in brackets behind the names of columns (`x [mm]`) or in a row below the names: for
-/// each unit its name, and metres per unit. A row of words below the names holds units if one of these is among the
-/// words.
+/// Units of length that files have in brackets behind the names of columns (`x [mm]`) or in a row below the names:
+/// for each unit its name, and metres per unit. A row below the names holds units if at least one of its words is the
+/// name of such a unit.
 pub const LENGTH_UNITS: [(&str, f64); 12] = [
     ("m", 1.0),
     ("metre", 1.0),

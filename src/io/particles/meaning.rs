@@ -18,7 +18,8 @@ pub enum Meaning {
     Kind,
     /// Time or step number, which gives the frame's time or tells the frames of a file apart.
     Time,
-    /// Marks the particles that are copies of particles in another piece of the file; these copies are left out.
+    /// Marks particles that are left out: copies of particles in another piece of the file, and hidden ones (ghost
+    /// types and levels of VTK).
     Ghost,
 }
 

@@ -164,10 +164,11 @@ impl Particles {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. If one of the two files has no particles, those of
-    /// the other stay as they are. Otherwise velocities, densities, lifetimes, kinds and ids that only one of the
-    /// files has are dropped, with a warning. All ids are dropped, with a warning, if an id of one file also occurs
-    /// in the other. [`extras`](Self::extras) are NaN for particles of a file that lacks them.
+    /// Appends the particles of another file of the same frame. If one of the two files has no particles, the result
+    /// is the particles of the other with all their attributes. Otherwise velocities, densities, lifetimes, kinds and
+    /// ids that only one of the files has are dropped, with a warning. All ids are dropped, with a warning, if an id
+    /// of one file also occurs in the other. [`extras`](Self::extras) are NaN for particles of a file that lacks
+    /// them.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }
@@ -260,10 +261,12 @@ pub fn same_name(a: &str, b: &str) -> bool {
     names::plain(a) == names::plain(b)
 }
 
-/// Reads a file from memory. `hint` matters only where the content is ambiguous: text and raw triples.
+/// Reads a file from memory. The content decides the format. `hint` matters only for text, for raw triples of `f32`,
+/// and for `Bobj` and `Sc`, which are not supported.
 ///
 /// # Errors
-/// The error says what was expected, what was found, where, and what to do. No input causes a panic.
+/// The error says what was expected, what was found, where in the file if that is known, and what to do. No input
+/// causes a panic.
 pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
     read_bytes_asked(bytes, hint, &Asked::default())
 }

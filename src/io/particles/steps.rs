@@ -55,7 +55,8 @@ pub fn steps(path: &Path) -> Result<Vec<Step>, ReadError> {
     Ok(if steps.len() < 2 { Vec::new() } else { steps })
 }
 
-/// Reads one frame of a file that holds several, like [`read_with`](super::read_with).
+/// Reads the frame `step` of a file that holds several. `extras` are further attributes to read, as in
+/// [`read_with`](super::read_with).
 ///
 /// # Errors
 /// Those of [`read`](super::read).

@@ -113,9 +113,11 @@ impl GeneratorSettings {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
     }
 
-    /// The defaults with these limits of trapped air, wave crests and energy (in this order), and with `rate`
-    /// (particles per second) as the maximum emission of one fluid particle from trapped air and also from wave crests.
-    /// A rate of 10 to 100 gives some ten thousand whitewater particles for a splash of ten thousand fluid particles.
+    /// The defaults for a [`spacing`](Self::spacing) of the fluid's particles, with these limits of trapped air, wave
+    /// crests and energy (in this order). `rate`, in particles per second, is the maximum emission of one fluid
+    /// particle from trapped air, and also its maximum emission from wave crests; both together can reach twice the
+    /// rate. A rate of 10 to 100 is a good start: a splash of ten thousand fluid particles then gives on the order of
+    /// ten thousand whitewater particles.
     pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {

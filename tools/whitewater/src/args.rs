@@ -272,10 +272,11 @@ pub struct DrawArgs {
     /// before the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
-    /// Frames per second at which a film plays [default: real time; 30 for a still]
+    /// Frames per second at which a film plays [default: as many as the sequence has, so that it plays in real time;
+    /// for a still --fps, or 30 without it]
     ///
-    /// At 25, a sequence of 500 frames a second plays 20 times slower than in reality. A still, such as one file with
-    /// --turntable, plays at --fps if that is given.
+    /// At 25, a sequence of 500 frames a second plays 20 times slower than in reality. A still is an input of one
+    /// frame, for example with --turntable.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub film_fps: Option<f32>,
     /// Size in pixels
@@ -296,8 +297,8 @@ pub struct DrawArgs {
     /// The blobs of --bubbles, the scene and the camera stand still.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: lens diameter in scene units, 0 for none [default: 0.0015 of the focus distance, at most 0.015,
-    /// in the cases in which --shutter is 1/200 by default; otherwise 0]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: where that of --shutter is 1/200, 0.0015 of
+    /// the focus distance but at most 0.015 scene units; otherwise 0]
     ///
     /// A lens of 50 mm at f/2 has a diameter of 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
@@ -360,13 +361,13 @@ pub struct DrawArgs {
     /// hold only the camera's motion.
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
-    /// PNG exposure: 'auto', or stops relative to it
+    /// Exposure of PNG files and films: 'auto', or stops relative to it (1 is twice as bright)
     ///
-    /// The exposure 'auto' follows from the environment's light and --set, not from the picture, so it is the same in
-    /// all frames of a sequence.
+    /// The exposure 'auto' follows from the environment's light and from the surroundings that --set chooses, not
+    /// from the picture, so it is the same in all frames of a sequence.
     #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
-    /// PNG tone map: aces, agx, neutral or linear
+    /// Tone map of PNG files and films: aces, agx, neutral or linear
     ///
     /// aces is the Academy's film curve (Hill's fit); agx is Sobotka's, with less contrast and paler bright
     /// colours; neutral is Khronos', which keeps dim colours; linear clips. EXR is always linear light.

@@ -65,17 +65,14 @@ fn a_film_has_all_frames() {
     assert!(!slow.stderr().contains("--film-fps"), "{}", slow.stderr());
     let fast = folder.run(&format!("{command} --fps 480").replace("--fps 12 ", "")).ok();
     assert!(fast.stderr().contains("480 frames a second, more than"), "{}", fast.stderr());
-    folder.run(&format!("{command} --every 2")).ok();
     folder.run(&command.replace("96x64", "95x64")).fails(2, &["--size", "96x64"]);
     folder.run(&command.replace("film", "film_%d")).fails(2, &["film_%d.mp4"]);
-    assert_eq!(folder.film("film.mp4"), (2, 6.0), "the one before is kept");
+    assert!(folder.film("film.mp4").1 > 400.0, "the one before is kept");
     // Also without particles.
     folder
         .run(&format!("render --bubbles one --frames 0-3 --every 2 -o b.mp4 {SIZE} --fps 12"))
         .ok();
     assert_eq!(folder.film("b.mp4"), (2, 6.0));
-    folder.run(&format!("render --bubbles one --frames 0-3 -o b.mp4 {SIZE} --fps 12")).ok();
-    assert_eq!(folder.film("b.mp4"), (4, 12.0));
     assert_eq!(folder.files().len(), 7, "{:?}", folder.files());
     // Without a film there is nothing that the rate could set.
     for command in ["render f_8.ply", "render --bubbles one", "demo"] {
@@ -88,16 +85,17 @@ fn a_film_has_all_frames() {
 fn a_rerun_without_particles_draws_only_what_is_missing() {
     let folder = Folder::new();
     for scene in ["--bubbles one", "--shore pool"] {
-        let command = format!("render {scene} --frames 1-4 -o o_%d.png {SIZE}");
-        folder.run(&format!("{command} --overwrite")).ok();
-        for frame in [3, 4] {
-            std::fs::remove_file(folder.path(&format!("o_{frame}.png"))).unwrap();
-        }
+        let command = format!("render {scene} --frames 1-3 -o o_%d.png {SIZE}");
+        // Whatever exists is finished.
+        folder.text("o_1.png", "a picture");
         let said = folder.run(&command).ok().stderr();
-        assert!(said.contains("2 finished frames are skipped"), "{said}");
+        assert!(said.contains("1 finished frame is skipped"), "{said}");
         assert!(said.contains("(1 of 2)") && said.contains("(2 of 2)"), "{said}");
         let said = folder.run(&command).ok().stderr();
-        assert!(said.contains("4 finished frames") && !said.contains("o_"), "{said}");
+        assert!(said.contains("3 finished frames") && !said.contains("o_"), "{said}");
+        for frame in 1..=3 {
+            std::fs::remove_file(folder.path(&format!("o_{frame}.png"))).unwrap();
+        }
     }
 }
 
