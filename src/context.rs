@@ -119,6 +119,9 @@ pub struct Shared {
     pub blends_pairs: bool,
     /// How barriers and timestamps are recorded.
     pub synchronization: Synchronization,
+    /// Sets the comparison of the depth test, which the stand-in scene needs.
+    #[cfg(feature = "headless")]
+    pub depth_compare: Option<vk::PFN_vkCmdSetDepthCompareOp>,
     /// Conditional rendering, if enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
     /// Names and labels, if enabled.
@@ -192,6 +195,8 @@ impl Shared {
             timestamp_bits: family.timestamp_valid_bits,
             blends_pairs: pairs.optimal_tiling_features.contains(blended),
             synchronization,
+            #[cfg(feature = "headless")]
+            depth_compare: loaded::depth_compare(host),
             conditional: host
                 .enabled
                 .conditional_rendering

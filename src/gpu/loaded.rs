@@ -62,6 +62,20 @@ pub fn check(host: &Host<'_>) -> Result<Synchronization, Error> {
     Ok(synchronization)
 }
 
+/// The function that sets the comparison of the depth test: of Vulkan 1.3, or of VK_EXT_extended_dynamic_state.
+#[cfg(feature = "headless")]
+pub fn depth_compare(host: &Host<'_>) -> Option<vk::PFN_vkCmdSetDepthCompareOp> {
+    let own = host.device.fp_v1_3().cmd_set_depth_compare_op;
+    let none = ash::DeviceFnV1_3::load(|_| null()).cmd_set_depth_compare_op;
+    if own as usize != none as usize {
+        return Some(own);
+    }
+    use ash::ext::extended_dynamic_state::DeviceFn;
+    let own = DeviceFn::load(|name| find(host, name)).cmd_set_depth_compare_op_ext;
+    let none = DeviceFn::load(|_| null()).cmd_set_depth_compare_op_ext;
+    (own as usize != none as usize).then_some(own)
+}
+
 /// A function of the device, or null.
 fn find(host: &Host<'_>, name: &CStr) -> *const c_void {
     // SAFETY: the device is alive; the name ends with a nul.

@@ -344,9 +344,21 @@ fn make_device(
         names.push(khr::portability_subset::NAME.as_ptr());
     }
     let mut features = enabled.device_features();
+    // For the stand-in scene; part of Vulkan 1.3.
+    let mut dynamic =
+        vk::PhysicalDeviceExtendedDynamicStateFeaturesEXT::default().extended_dynamic_state(true);
+    let dynamic_state = ash::ext::extended_dynamic_state::NAME;
+    let older = options.vulkan_1_2 || offer.api_version < vk::API_VERSION_1_3;
+    let extended = older && has(dynamic_state);
+    if extended {
+        names.push(dynamic_state.as_ptr());
+    }
     let info =
         vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&names);
-    let info = features.chain(info);
+    let mut info = features.chain(info);
+    if extended {
+        info = info.push_next(&mut dynamic);
+    }
     // SAFETY: valid create info with live pointers.
     let device = unsafe { instance.create_device(physical, &info, None) }
         .context(|| "vkCreateDevice".into())?;

@@ -351,3 +351,24 @@ fn pictures_that_are_no_whole_pictures_are_refused() {
     let device = headless.finish().expect("finish");
     assert_eq!(device.take_messages(), Vec::<String>::new());
 }
+
+/// The stand-in scene is drawn on a device of Vulkan 1.2 too, and looks the same.
+#[test]
+fn a_device_of_vulkan_1_2_draws_the_scene() {
+    let camera = scenes::camera(Lens::Standard, SIZE);
+    let settings = scenes::settings(0.2);
+    let points = scenes::world(&camera, &scenes::block(3, 0.25, [4, 4, 2], [-0.5, -0.5, 3.0]));
+    let [new, old] = [false, true].map(|vulkan_1_2| {
+        let options = whitewater::headless::DeviceOptions { vulkan_1_2, ..Default::default() };
+        let mut gpu = Gpu::own_with(&options);
+        let mut headless = Headless::new(gpu.take_device(), &config(SIZE)).expect("headless");
+        headless.particles(&points, None).expect("particles");
+        headless.scene(&scene(), false).expect("scene");
+        headless.render(&camera, &settings, &Background::Scene).expect("a frame");
+        let color = headless.color().expect("read back");
+        let device = headless.finish().expect("finish");
+        assert_eq!(device.take_messages(), Vec::<String>::new());
+        color
+    });
+    assert!(new == old, "another picture");
+}

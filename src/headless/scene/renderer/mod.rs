@@ -123,7 +123,8 @@ impl SceneRenderer {
     /// Vulkan device that runs on the CPU. After an error the next `Gpu::bury` frees the objects.
     ///
     /// # Errors
-    /// A sun without direction or with a negative colour; an invalid sea, haze, metre, cloud strength or splashed
+    /// A device that has neither Vulkan 1.3 nor VK_EXT_extended_dynamic_state enabled; a sun without direction or with
+    /// a negative colour; an invalid sea, haze, metre, cloud strength or splashed
     /// rectangle; a texture that the device cannot hold; no memory; Vulkan errors.
     pub fn new(
         gpu: &Gpu,
@@ -149,6 +150,12 @@ impl SceneRenderer {
         depth_format: vk::Format,
         antialias: bool,
     ) -> Result<Self, Error> {
+        if gpu.depth_compare.is_none() {
+            return Err(Error::Missing {
+                what: "vkCmdSetDepthCompareOp".into(),
+                why: "the scene needs Vulkan 1.3 or VK_EXT_extended_dynamic_state".into(),
+            });
+        }
         let formats = Formats { color: color_format, depth: depth_format };
         let surroundings = Surroundings::new(scene)?;
         let mut textures = Textures::new(gpu)?;

@@ -84,8 +84,10 @@ impl Opaque<'_> {
 pub fn set_depth_test(gpu: &Gpu, cmd: vk::CommandBuffer, far: f32) {
     let nearer =
         if far == 0.0 { vk::CompareOp::GREATER_OR_EQUAL } else { vk::CompareOp::LESS_OR_EQUAL };
-    // SAFETY: cmd is recording; dynamic in every pipeline of the scene.
-    unsafe { gpu.device.cmd_set_depth_compare_op(cmd, nearer) };
+    if let Some(set) = gpu.depth_compare {
+        // SAFETY: cmd is recording; dynamic in every pipeline of the scene.
+        unsafe { set(cmd, nearer) };
+    }
 }
 
 /// Draws depth only.
