@@ -608,9 +608,9 @@ void main() {
     float a2 = alpha * alpha;
     float d = a2 / (PI * pow(n_h * n_h * (a2 - 1.0) + 1.0, 2.0));
     float vis = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
-    c += sun * d * vis * (0.04 + 0.96 * pow(1.0 - v_h, 5.0));
+    c += sun * d * vis * (0.04 + 0.96 * pow(max(1.0 - v_h, 0.0), 5.0));
     float lod = s.roughness * (log2(float(textureSize(environment, 0).x)) - 2.0);
-    float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
+    float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(max(1.0 - n_v, 0.0), 5.0);
     vec3 mirrored = reflect(-v, n);
     vec3 seen = mix(c, with_band(textureLod(environment, mirrored, lod).rgb, mirrored.y), sky_seen * sky_seen);
     // At grazing angles leaves and blades turn away and hide one another.

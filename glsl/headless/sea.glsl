@@ -178,7 +178,7 @@ vec3 with_clouds(vec3 sky, float up, float thick) {
 }
 
 float fresnel(float cosine) {
-    return MIRRORED + (1.0 - MIRRORED) * pow(1.0 - cosine, 5.0);
+    return MIRRORED + (1.0 - MIRRORED) * pow(max(1.0 - cosine, 0.0), 5.0);
 }
 
 // Mean of the Fresnel reflectance over slopes with a variance.

@@ -175,11 +175,13 @@ impl Drop for Device {
         unsafe {
             let _ = self.device.device_wait_idle();
             self.device.destroy_device(None);
-            if let Some(messages) = self.messages.take() {
+            let messages = self.messages.take();
+            if let Some(messages) = &messages {
                 messages.debug.destroy_debug_utils_messenger(messages.messenger, None);
-                drop(messages.list);
             }
             self.instance.destroy_instance(None);
+            // The instance may report messages until its end.
+            drop(messages);
         }
     }
 }

@@ -116,8 +116,8 @@ impl Headless {
     /// Staging buffers with colour and depth of a background from the CPU.
     fn staged(&self, background: &Background<'_>) -> Result<Option<[Buffer; 2]>, Error> {
         let Background::Images { color, depth } = background else { return Ok(None) };
-        check_texels("Background.color", self.color.extent, color.len())?;
-        check_texels("Background.depth", self.depth.extent, depth.len())?;
+        check_texels(&self.gpu, "Background.color", self.color.extent, color.len())?;
+        check_texels(&self.gpu, "Background.depth", self.depth.extent, depth.len())?;
         let half: Vec<[u16; 4]> =
             color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
         let color = staging(&self.gpu, bytemuck::cast_slice(&half))?;

@@ -38,11 +38,20 @@ impl Headless {
     /// A value of `sky` outside its range; Vulkan errors.
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
+        source.check()?;
         self.forget_scene();
         self.without_sun = None;
+        self.record_environment(&source)
+    }
+
+    /// Records an environment and waits for it.
+    fn record_environment(&mut self, source: &EnvironmentSource) -> Result<(), Error> {
         self.run(|this, cmd| {
             // SAFETY: cmd is recording; the slot's earlier work is done (every run waits).
-            unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
+            unsafe {
+                this.renderer.collect(Slot(0));
+                this.renderer.record_environment(cmd, Slot(0), source)
+            }
         })
     }
 
@@ -91,16 +100,7 @@ impl Headless {
         without_sun: Option<&[[f32; 4]]>,
         (scale, turn): (f32, f32),
     ) -> Result<(), Error> {
-        self.forget_scene();
-        self.without_sun = None;
-        let most = self.gpu.limits.max_image_dimension2_d;
-        if extent.width > most || extent.height > most {
-            let found = format!("{}x{}", extent.width, extent.height);
-            let why =
-                format!("expected at most {most}x{most} texels on this device, found {found}");
-            return Err(Error::bad("Equirectangular.image.extent", why));
-        }
-        check_texels("Equirectangular.image", extent, pixels.len())?;
+        check_texels(&self.gpu, "Equirectangular.image", extent, pixels.len())?;
         let shown = self.picture("headless/equirect", extent, pixels)?;
         let lights = without_sun
             .map(|pixels| self.picture("headless/equirect/without sun", extent, pixels))
@@ -120,6 +120,10 @@ impl Headless {
         shown: &Image,
         lights: Option<&Image>,
     ) -> Result<(), Error> {
+        let map = Equirectangular { without_sun: lights.map(host), ..of(host(shown)) };
+        let source = EnvironmentSource::Equirectangular(map);
+        source.check()?;
+        let mut without_sun = None;
         if let Some(lights) = lights {
             let mut own = Environment::new(&self.gpu, self.renderer.config())?;
             let descriptors = Descriptors::new(&self.gpu, SETS)?;
@@ -128,14 +132,12 @@ impl Headless {
                 own.record_setup(&this.gpu, cmd);
                 own.record(&this.gpu, cmd, &descriptors, &source)
             })?;
-            self.without_sun = Some(own);
+            without_sun = Some(own);
         }
-        let map = Equirectangular { without_sun: lights.map(host), ..of(host(shown)) };
-        let source = EnvironmentSource::Equirectangular(map);
-        self.run(|this, cmd| {
-            // SAFETY: as in `sky`.
-            unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
-        })
+        self.forget_scene();
+        self.record_environment(&source)?;
+        self.without_sun = without_sun;
+        Ok(())
     }
 
     /// A picture on the device, uploaded.

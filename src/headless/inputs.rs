@@ -198,7 +198,8 @@ impl WhitewaterParts<'_> {
                 let gpu = &self.headless.gpu;
                 let new = WhitewaterBuffers::new(gpu, self.count, part.attributes())?;
                 // No larger than all the data, which is often small.
-                let size = (12 * u64::from(self.count)).clamp(16, STAGING as u64);
+                let least = size_of::<Packet>() as u64;
+                let size = (12 * u64::from(self.count)).clamp(least, STAGING as u64);
                 let usage = vk::BufferUsageFlags::TRANSFER_SRC;
                 let location = MemoryLocation::CpuToGpu;
                 let staging =
@@ -280,7 +281,10 @@ impl Foamed {
     pub fn new(gpu: &Arc<Gpu>, blobs: &[Bubble]) -> Result<Self, Error> {
         let count =
             u32::try_from(blobs.len()).map_err(|_| Error::bad("bubbles", "2^32 blobs or more"))?;
-        let blobs = input(gpu, "headless/bubbles", bytemuck::cast_slice(blobs))?;
+        // Also without blobs all attributes lie within the buffer.
+        let none = [Bubble::zeroed()];
+        let bytes = if blobs.is_empty() { &none[..] } else { blobs };
+        let blobs = input(gpu, "headless/bubbles", bytemuck::cast_slice(bytes))?;
         Ok(Self { count, blobs })
     }
 

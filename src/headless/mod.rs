@@ -140,8 +140,17 @@ impl Headless {
         // SAFETY: the device is ours, and dropped after its context and all that is made from it.
         let context = unsafe { Context::new(&device.host(1)) }?;
         let gpu = Gpu::new(&context);
-        let made = Self::own(&gpu, &device, &config)
-            .and_then(|own| Ok((own, Renderer::new(&context, &config)?)));
+        // The renderer checks the extent.
+        let made = Renderer::new(&context, &config).and_then(|renderer| {
+            match Self::own(&gpu, &device, &config) {
+                Ok(own) => Ok((own, renderer)),
+                Err(error) => {
+                    // SAFETY: nothing was submitted.
+                    unsafe { renderer.destroy() };
+                    Err(error)
+                }
+            }
+        });
         let ((commands, color, depth), renderer) = match made {
             Ok(made) => made,
             Err(error) => {

@@ -224,7 +224,7 @@ impl Headless {
         texels: &[f32],
     ) -> Result<(Image, Buffer), Error> {
         let extent = vk::Extent2D { width, height };
-        check_texels(field, extent, texels.len())?;
+        check_texels(&self.gpu, field, extent, texels.len())?;
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let desc = ImageDesc::new("headless/shore", extent, vk::Format::R32_SFLOAT, usage);
         let image = Image::new(&self.gpu, &desc)?;

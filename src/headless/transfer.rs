@@ -21,9 +21,21 @@ const HOST_READ: Access = Access::new(
     vk::ImageLayout::GENERAL,
 );
 
-/// Fails unless a picture of this extent has this number of texels: a copy from fewer would read past their end.
-pub fn check_texels(field: &'static str, extent: vk::Extent2D, found: usize) -> Result<(), Error> {
+/// Fails unless a picture of this extent has this number of texels, because a copy from fewer would read past their end,
+/// and the device can hold it.
+pub fn check_texels(
+    gpu: &Gpu,
+    field: &'static str,
+    extent: vk::Extent2D,
+    found: usize,
+) -> Result<(), Error> {
     let (width, height) = (extent.width, extent.height);
+    let most = gpu.limits.max_image_dimension2_d;
+    if width > most || height > most {
+        let why =
+            format!("expected at most {most}x{most} texels on this device, found {width}x{height}");
+        return Err(Error::bad(field, why));
+    }
     if width == 0 || height == 0 || found as u64 != u64::from(width) * u64::from(height) {
         let why = format!("expected one value for each of {width}x{height} texels, found {found}");
         return Err(Error::bad(field, why));

@@ -93,3 +93,47 @@ fn a_glb_that_doubles_itself_is_refused() {
     assert!(why.contains("more than one parent"), "{why}");
     assert!(peak < 1 << 20, "{peak}");
 }
+
+/// Without a list of scenes the roots are the nodes that no node has as child.
+#[test]
+fn nodes_without_a_scene_are_a_tree() {
+    let json = GLB.replace("\"scene\":0,\"scenes\":[{\"nodes\":[0]}],", "");
+    assert!(json.len() < GLB.len());
+    let scene = Scene::parse_glb(&glb(json.as_bytes())).expect("two nodes");
+    assert_eq!(scene.meshes.len(), 2);
+}
+
+/// A node that lists itself a million times is refused before the list is multiplied.
+#[test]
+fn a_glb_of_endless_children_is_refused() {
+    let again = "0,".repeat(1 << 20);
+    let json = GLB.replace("\"children\":[1]", &format!("\"children\":[{again}1]"));
+    let (result, peak) = allocation::peak(|| Scene::parse_glb(&glb(json.as_bytes())));
+    let why = result.err().unwrap();
+    assert!(why.contains("more than one parent"), "{why}");
+    assert!(peak < 64 << 20, "{peak}");
+}
+
+#[test]
+fn files_beside_a_scene_are_in_its_folder() {
+    for uri in ["/dev/zero", "../a.bin", "a/../../b.bin"] {
+        let json =
+            GLB.replace("{\"byteLength\":44}", &format!("{{\"uri\":\"{uri}\",\"byteLength\":44}}"));
+        let why = Scene::parse_glb(&glb(json.as_bytes())).err().unwrap();
+        assert!(why.contains("in the scene's folder"), "{uri}: {why}");
+    }
+}
+
+/// A number that is too large for single precision is an error, not an invisible part.
+#[test]
+fn json_numbers_are_finite() {
+    for (old, new, named) in [
+        ("\"centre\":[0,-0.05,0]", "\"centre\":[0,1e39,0]", "centre of 'basin floor'"),
+        ("\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,1e39,1]", "rotation of 'lid'"),
+        ("\"ground\":{\"y\":-0.1", "\"ground\":{\"y\":1e39", "y of 'ground'"),
+    ] {
+        assert!(JSON.contains(old));
+        let why = Scene::parse_json(JSON.replacen(old, new, 1).as_bytes()).err().unwrap();
+        assert!(why.contains(named) && why.contains("finite"), "{why}");
+    }
+}

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use glam::{Mat4, Vec3};
-use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene, SunLight};
+use whitewater::headless::scene::{Ground, Material, Mesh, Motion, Pattern, Scene, SunLight};
 use whitewater::headless::{Background, Headless};
 use whitewater::{Camera, Error, Settings};
 
@@ -299,5 +299,37 @@ fn surfaces_go_by_the_metre() {
         let bad = headless.scene(&scene(1.0, Some(metre), Pattern::Plain), false);
         assert!(matches!(bad, Err(Error::BadInput { .. })), "{metre}");
     }
+    finish(headless);
+}
+
+/// The pattern of a mesh that moves moves with it: seen from a camera that moves alike, it looks the same.
+#[test]
+fn patterns_move_with_their_mesh() {
+    let mut headless = headless(SIZE);
+    under_a_grey_sky(&mut headless);
+    let boards = Material { pattern: Pattern::Planks { width: 0.2 }, ..matt() };
+    let door = |pose: Mat4| {
+        let mesh =
+            Mesh::cuboid([0.5, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0], boards.clone());
+        let motion = Motion { meshes: vec![0], first_frame: 0, poses: vec![pose] };
+        Scene { meshes: vec![mesh], motions: vec![motion], ..Scene::default() }
+    };
+    let eye = Vec3::new(0.4, 0.3, 4.0);
+    let mut seen = |pose: Mat4| {
+        let [eye, target, up] = [eye, Vec3::ZERO, eye + Vec3::Y].map(|p| pose.transform_point3(p));
+        let view = Mat4::look_at_rh(eye, target, up - eye);
+        let camera = Camera::of(view, projection(Lens::ReversedInfinite, SIZE));
+        shot(&mut headless, &door(pose), &camera).0
+    };
+    let expected = seen(Mat4::IDENTITY);
+    let shifted = seen(Mat4::from_translation(Vec3::new(0.33, 0.0, 0.07)));
+    let turned = seen(Mat4::from_rotation_z(0.4));
+    let apart = |a: &[[f32; 4]]| {
+        let differences = a.iter().zip(&expected).map(|(a, b)| (a[0] - b[0]).abs());
+        differences.fold(0.0, f32::max)
+    };
+    let most = [apart(&shifted), apart(&turned)];
+    // The slope of the boards' edges is rounded.
+    assert!(most.iter().all(|most| *most < 0.02), "{most:?}");
     finish(headless);
 }

@@ -372,3 +372,56 @@ fn a_device_of_vulkan_1_2_draws_the_scene() {
     });
     assert!(new == old, "another picture");
 }
+
+/// What the device cannot hold is refused before an image is made of it.
+#[test]
+fn images_that_the_device_cannot_hold_are_refused() {
+    for (width, height) in [(0, 16), (1 << 20, 16)] {
+        let mut gpu = Gpu::own();
+        let refused = Headless::new(gpu.take_device(), &config(vk::Extent2D { width, height }));
+        assert!(refused.is_err(), "{width}x{height}");
+    }
+    let mut gpu = Gpu::own();
+    let mut headless = Headless::new(gpu.take_device(), &config(SIZE)).expect("headless");
+    let error = headless.shore_mask([1 << 20, 1], &vec![1.0; 1 << 20]).expect_err("too wide");
+    assert!(error.to_string().contains("at most"), "{error}");
+    let device = headless.finish().expect("finish");
+    assert_eq!(device.take_messages(), Vec::<String>::new());
+}
+
+/// A refused sky or map changes nothing; the sky may be set any number of times without a frame; a list of no blobs is
+/// one.
+#[test]
+fn environments_and_blobs_of_any_number() {
+    let mut gpu = Gpu::own();
+    let bubbles = whitewater::bubbles::BubbleConfig::new(4).with(|it| {
+        it.variants = 1;
+        it.bubbles = 8;
+        it.map_size = 16;
+    });
+    let config = config(SIZE).with(|it| it.bubbles = Some(bubbles));
+    let mut headless = Headless::new(gpu.take_device(), &config).expect("headless");
+    let camera = scenes::camera(Lens::Standard, SIZE);
+    let settings = scenes::settings(0.2);
+    headless.particles(&scenes::world(&camera, &[[0.0, 0.0, 3.0]]), None).expect("particles");
+    headless.bubbles(&[]).expect("no blobs");
+    headless.scene(&scene(), false).expect("scene");
+    let drawn = |headless: &mut Headless| {
+        headless.render(&camera, &settings, &Background::Scene).expect("a frame");
+        headless.color().expect("read back")
+    };
+    for _ in 0..200 {
+        headless.sky(&Sky::default()).expect("sky");
+    }
+    drawn(&mut headless);
+    let size = vk::Extent2D { width: 8, height: 4 };
+    let (sunny, grey) = (vec![[3.0; 4]; 32], vec![[0.5; 4]; 32]);
+    headless.equirectangular_with_sun(size, &sunny, &grey, (1.0, 0.0)).expect("a map");
+    let expected = drawn(&mut headless);
+    headless.sky(&Sky::default().with(|it| it.intensity = f32::NAN)).expect_err("NaN");
+    headless.equirectangular(size, &sunny[1..], 1.0, 0.0).expect_err("one is missing");
+    headless.equirectangular_with_sun(size, &grey, &sunny, (f32::NAN, 0.0)).expect_err("NaN");
+    assert!(drawn(&mut headless) == expected, "a refused environment shows");
+    let device = headless.finish().expect("finish");
+    assert_eq!(device.take_messages(), Vec::<String>::new());
+}

@@ -2,8 +2,8 @@
 //! crate (1.4) panics on some damaged files, for example on a component type that does not fit its use, and
 //! does not report data that lie outside their buffer. The `image` crate decodes images.
 
-use std::collections::HashMap;
-use std::path::Path;
+use std::collections::{HashMap, HashSet};
+use std::path::{Component, Path};
 use std::sync::Arc;
 
 use glam::{Mat4, Quat, Vec3};
@@ -150,7 +150,11 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
     let mut scene = Scene::default();
     let roots: Vec<usize> = match at(&document.scenes, document.scene.unwrap_or(0), "scene") {
         Ok(scene) => scene.nodes.clone(),
-        Err(_) if document.scenes.is_empty() => (0..document.nodes.len()).collect(),
+        Err(_) if document.scenes.is_empty() => {
+            let children: HashSet<usize> =
+                document.nodes.iter().flat_map(|node| node.children.iter().copied()).collect();
+            (0..document.nodes.len()).filter(|node| !children.contains(node)).collect()
+        }
         Err(error) => return Err(error),
     };
     let mut images = HashMap::new();
@@ -158,12 +162,13 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
     let (mut visited, mut size) = (0, 0);
     while let Some((index, parent, depth)) = stack.pop() {
         visited += 1;
-        // A graph that is not a tree would be walked without end; in a tree each node is visited once.
-        if depth > 256 || visited > document.nodes.len() {
-            return Err("nodes are nested more than 256 deep, or have more than one parent".into());
-        }
         let node = at(&document.nodes, index, "node")?;
         let transform = parent * node.transform();
+        // A graph that is not a tree would be walked without end; in a tree each node is visited once.
+        let waiting = stack.len() + node.children.len();
+        if depth > 256 || visited + waiting > document.nodes.len() {
+            return Err("nodes are nested more than 256 deep, or have more than one parent".into());
+        }
         stack.extend(node.children.iter().map(|&child| (child, transform, depth + 1)));
         let Some(mesh) = node.mesh else { continue };
         for primitive in &at(&document.meshes, mesh, "mesh")?.primitives {
@@ -222,9 +227,12 @@ fn at<'a, T>(list: &'a [T], index: usize, what: &str) -> Result<&'a T, String> {
 
 /// Reads a file in the scene's folder.
 fn file(folder: Option<&Path>, uri: &str) -> Result<Vec<u8>, String> {
-    if uri.contains(':') || uri.contains('%') {
+    let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    if uri.contains(':') || uri.contains('%') || !Path::new(uri).components().all(inside) {
         let start: String = uri.chars().take(24).collect();
-        return Err(format!("expected the plain name of a file, found '{start}'"));
+        return Err(format!(
+            "expected the plain name of a file in the scene's folder, found '{start}'"
+        ));
     }
     let folder = folder.ok_or_else(|| format!("expected all in one file, found '{uri}'"))?;
     let path = folder.join(uri);

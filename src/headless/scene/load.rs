@@ -261,10 +261,18 @@ impl Scene {
         if let Pattern::Tiles { band, .. } = &mut tiles.pattern {
             *band = file.fluid.and_then(|fluid| fluid.pool_level);
         }
+        // Numbers beyond single precision are read as infinite.
+        let finite = |values: &[f32], what: &str, name: &str| {
+            let fine = values.iter().all(|v| v.is_finite());
+            fine.then_some(())
+                .ok_or(format!("{what} of '{name}': expected finite numbers, found {values:?}"))
+        };
         for part in &file.boxes {
             for (half, what) in part.half.into_iter().zip(["half[0]", "half[1]", "half[2]"]) {
                 positive(half, what, &part.name)?;
             }
+            finite(&part.centre, "centre", &part.name)?;
+            finite(&part.rotation, "rotation", &part.name)?;
             let outside = material(&part.material, &part.name)?;
             let (centre, half) = (Vec3::from(part.centre), Vec3::from(part.half));
             // A face belongs to the inside of the basin if it lies within the basin's bounds and faces the
@@ -294,6 +302,8 @@ impl Scene {
         for part in file.cylinders {
             positive(part.radius, "radius", &part.name)?;
             positive(part.height, "height", &part.name)?;
+            finite(&part.centre, "centre", &part.name)?;
+            finite(&part.rotation, "rotation", &part.name)?;
             let material = material(&part.material, &part.name)?;
             let mesh = match part.bore {
                 Some(bore) if !(bore > 0.0 && bore < part.radius) => {
@@ -313,6 +323,7 @@ impl Scene {
         }
         for part in file.spheres {
             positive(part.radius, "radius", &part.name)?;
+            finite(&part.centre, "centre", &part.name)?;
             let material = material(&part.material, &part.name)?;
             scene
                 .meshes
@@ -339,6 +350,7 @@ impl Scene {
             scene.motions.push(Motion { meshes, first_frame: motion.first_frame, poses });
         }
         if let Some(ground) = file.ground {
+            finite(&[ground.y], "y", "ground")?;
             let material = material(&ground.material, "ground")?;
             scene.ground = Some(Ground { y: ground.y, material, reach: None });
         }

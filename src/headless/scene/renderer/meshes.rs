@@ -72,14 +72,13 @@ impl Meshes {
             let (material, transform) = match (batch.part, &scene.ground) {
                 (Part::Mesh(index), _) => {
                     let mesh = &scene.meshes[index];
-                    let transform = scene.pose(index).unwrap_or_default() * mesh.transform;
-                    (&mesh.material, transform)
+                    (&mesh.material, (scene.pose(index), mesh.transform))
                 }
                 (Part::Backdrop(index), _) => {
                     let mesh = &scene.backdrop[index];
-                    (&mesh.material, mesh.transform)
+                    (&mesh.material, (None, mesh.transform))
                 }
-                (Part::Ground, Some(ground)) => (&ground.material, Mat4::IDENTITY),
+                (Part::Ground, Some(ground)) => (&ground.material, (None, Mat4::IDENTITY)),
                 (Part::Ground, None) => continue,
             };
             let texture = match &material.texture {
@@ -158,7 +157,7 @@ impl Draw {
     fn new(
         batch: &Batch,
         texture: usize,
-        transform: Mat4,
+        (pose, transform): (Option<Mat4>, Mat4),
         material: &Material,
         scene: &Scene,
     ) -> Self {
@@ -167,6 +166,11 @@ impl Draw {
         // A mesh without rotation uses the world's frame, so that tiles continue around corners.
         if rotation.is_finite() && !rotation.is_near_identity() {
             (turn, origin) = (rotation.normalize(), translation);
+        }
+        // The pattern moves with its mesh.
+        if let Some(pose) = pose.filter(Mat4::is_finite) {
+            let (_, rotation, _) = pose.to_scale_rotation_translation();
+            (turn, origin) = ((rotation * turn).normalize(), pose.transform_point3(origin));
         }
         // The same numbers as in `scene.frag`.
         let (pattern, size, band) = match material.pattern {
