@@ -150,8 +150,9 @@ pub struct EnabledFeatures {
     pub draw_indirect_count: bool,
     /// `largePoints`. Without it the raster splats draw quads only.
     pub large_points: bool,
-    /// `occlusionQueryPrecise`. Without it an occlusion query only distinguishes zero samples from more, which
-    /// suffices to end the smoothing.
+    /// `occlusionQueryPrecise`, for `Smoothing::Query` (feature `diagnostics`). Without it an occlusion query only
+    /// tells whether there are any samples. That is enough to decide when the smoothing ends, but the numbers in
+    /// `Diagnostics::active_samples` are then not exact.
     pub precise_occlusion_queries: bool,
     /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater is drawn in two passes over
     /// its particles instead of one.
@@ -229,10 +230,12 @@ pub struct Config {
     pub exit: Exit,
     /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`], which the pass
     /// `shape` fits, make thin water look like one body instead of separate balls. They take 108 to 112 more bytes
-    /// per particle, plus 8 with `surface_foam`, plus 4 with `spray`; 40 of these bytes, times the number of
-    /// particles, have to fit in the storage-buffer range. A frame of 1280×720 then takes 1.1 times as long as with
-    /// spheres at 28 000 particles and 1.5 times at 140 000 (lavapipe). With an
-    /// [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and `centred` of 0 it takes 1.0 and 1.2 times as long.
+    /// per particle (the number of buckets of the neighbour grid is a power of two), plus 8 with `surface_foam`, plus
+    /// 4 with `spray`. One buffer, of 40 bytes per particle, has to fit in the storage-buffer range. At 1280×720 with
+    /// 27 000 particles (lavapipe) a frame of water alone takes 1.4 times as long as with spheres, one with surface
+    /// foam, spray, shadows and caustics 1.15 times. With an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and
+    /// [`Ellipsoids::centred`](crate::water::Ellipsoids) of 0 these factors are 1.2 and 1.0. They grow with the
+    /// number of particles.
     pub kernels: Kernels,
     /// Iteration rule of the smoothing.
     #[cfg(feature = "diagnostics")]
@@ -256,8 +259,9 @@ pub struct Config {
     pub sheets: u32,
     /// Whether the pass `surface_foam` draws surface foam (default false). Particles of the water turn into this
     /// foam, each of them partly or wholly. The part of a particle that is foam no longer counts as water. Surface
-    /// foam takes 68 more bytes of GPU memory per particle, and 52 per texel at
-    /// [`thickness_level`](Self::thickness_level) (56 with a light map or a shadow map).
+    /// foam takes 68 more bytes of GPU memory per particle, and 52 per texel of its images (56 with a light map or a
+    /// shadow map), whose resolution is [`thickness_level`](Self::thickness_level). The memory of a
+    /// [`SurfaceFoamState`](crate::SurfaceFoamState) comes in addition.
     pub surface_foam: bool,
     /// Whether the pass `spray` draws particles of low density as droplets and mist (default false). A particle below
     /// [`SpraySettings::all_spray_density`] is only spray, one above
@@ -273,9 +277,9 @@ pub struct Config {
     pub whitewater: Option<WhitewaterConfig>,
     /// Whether blobs of bubble foam (balls of soap bubbles) are drawn ([`Frame::bubbles`]): the passes `blobs`,
     /// `peel` and `soap`; also `cast` if [`light_map_size`](Self::light_map_size) is set, and `near` if the blobs are
-    /// made from whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not drawn. They
-    /// take `18½ + 4·layers` more bytes of GPU memory per pixel ([`BubbleConfig::layers`]), and 64 per blob of
-    /// `max_blobs` (100 with `crossfade`).
+    /// made from whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not drawn. Bubble
+    /// foam takes `18½ + 4·layers` more bytes of GPU memory per pixel ([`BubbleConfig::layers`]), and 64 bytes, or
+    /// 100 with `crossfade`, for each of the `max_blobs` blobs.
     pub bubbles: Option<BubbleConfig>,
     /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shore-tiles`, `shoreline` and
     /// `contact`. With `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and
@@ -379,15 +383,16 @@ pub struct HostImage {
     /// The part of the image that is used: the whole image, the part of one view in an image of several views, or a
     /// part whose size changes from frame to frame. Barriers cover the whole image.
     pub rect: vk::Rect2D,
-    /// Last use before `record`: the stages and accesses to wait for, and the current layout, which must not be
-    /// `UNDEFINED`.
+    /// The host's last use of the image before the commands that `record` records: the stages and accesses to wait
+    /// for, and the layout that the image then has. The layout `UNDEFINED` is refused.
     pub before: Access,
     /// First use after `record`, with the layout in which `record` leaves the image.
     pub after: Access,
 }
 
 impl HostImage {
-    /// A whole image that is returned in the state in which it was passed. The aspects follow from the format.
+    /// An image that is used at its full size ([`rect`](Self::rect)) and returned in the state in which it was
+    /// passed. The aspects follow from the format.
     pub fn new(
         image: vk::Image,
         view: vk::ImageView,
@@ -540,8 +545,9 @@ pub struct Particles {
     /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam) returns them. Without [`Config::surface_foam`] it has
     /// to be `None`. With `None` there is no foam.
     pub surface_foam: Option<Stream>,
-    /// Last use of all buffers of these water particles before `record`; the layout is ignored. Use
-    /// [`access::NOTHING`](crate::access::NOTHING) for buffers that the CPU wrote before the submission.
+    /// Last use of the buffers of these water particles on the GPU, before the commands that `record` records. One
+    /// value holds for all of these buffers; its layout is ignored. Use [`access::NOTHING`](crate::access::NOTHING)
+    /// for buffers that the CPU wrote before the submission.
     pub before: Access,
     /// First use of these buffers after `record` (layout ignored).
     pub after: Access,
@@ -810,7 +816,8 @@ pub struct Triangles {
     pub positions: Stream,
     /// Number of vertices.
     pub vertices: u32,
-    /// Vertex indices (u32) and their number, a multiple of three. `None`: all vertices in order.
+    /// Vertex indices (u32), and how many indices there are: a multiple of three. `None`: all vertices in order,
+    /// three per triangle.
     pub indices: Option<(Stream, u32)>,
 }
 

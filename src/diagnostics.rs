@@ -22,11 +22,11 @@ pub struct Diagnostics {
     pub counts: Option<ParticleCounts>,
     /// Resolutions at which the frame was smoothed.
     pub levels: Option<SmoothingLevels>,
-    /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number of
-    /// tiles, in all smoothing levels together, that hold water or show foam, spray, whitewater particles or bubble
-    /// foam; a tile is 16×16 texels of its level. In record i, 1 to 257, the fourth word is the number of tiles that
-    /// iteration i processes. The buffer has transfer-source usage. In `record` a compute shader writes it, and it is
-    /// then read as indirect arguments and by compute shaders.
+    /// Work of the smoothing: a buffer of 259 rows of four `u32`. In row 0 the second word is the number of tiles, in
+    /// all smoothing levels together, that hold water or show foam, spray, whitewater particles or bubble foam; a
+    /// tile is 16×16 texels of its level. In row i, 1 to 257, the fourth word is the number of tiles that iteration i
+    /// processes. The buffer has transfer-source usage. In `record` a compute shader writes it, and it is then read
+    /// as indirect arguments and by compute shaders.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness image, row by row: the
     /// boundary between the two layers of water, which is an eye depth in the air between them. It is 1e10 where

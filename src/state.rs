@@ -38,7 +38,8 @@ struct StateSlot {
 }
 
 /// State of the surface foam on one body of water: for each particle id its phase, which is water, foam, or the
-/// transition from one to the other. All views share the state, and each simulation step advances it once.
+/// transition from one to the other. All views share the state. It is advanced once per simulation step
+/// ([`record_step`](Self::record_step)), not once per frame or view.
 pub struct SurfaceFoamState {
     gpu: Arc<Gpu>,
     config: SurfaceFoamStateConfig,
@@ -193,10 +194,10 @@ impl SurfaceFoamState {
         }
     }
 
-    /// Takes back the last recorded step, if it had this slot: the state is again what it was before that step. Call
-    /// it if the step's command buffer was discarded instead of submitted. Earlier steps cannot be taken back, except
-    /// by [`record_restore`](Self::record_restore). The call frees nothing, so it is safe even while GPU work is
-    /// pending.
+    /// Takes back the last recorded step, if it was recorded with this slot: the state is again what it was before
+    /// that step. Otherwise the state stays. Call it if the step's command buffer was discarded instead of submitted.
+    /// Earlier steps cannot be taken back, except by [`record_restore`](Self::record_restore). The call frees
+    /// nothing, so it is safe even while GPU work is pending.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

@@ -240,8 +240,9 @@ pub struct BubbleSettings {
     pub crossfade: Crossfade,
 }
 
-/// Cross-fade of whitewater foam particles from sprites (flat discs) to blobs of bubbles near the camera. (Akinci et
-/// al. 2013 show no foam so near.) Particles of the other kinds, spray and bubbles, stay sprites.
+/// Cross-fade of the foam particles of whitewater: far from the camera they are sprites (flat discs), near it blobs
+/// of bubble foam. (Akinci et al. 2013 show no foam so near.) The other two kinds of whitewater particles, spray and
+/// single bubbles, are always sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossfade {
     /// Distance from the camera up to which foam consists of blobs only, scene units, [0, far), default 2.

@@ -42,9 +42,9 @@ impl Headless {
         self.region = Some(region);
     }
 
-    /// Sets the camera of the previous frame and the time since, from which motion vectors are computed
-    /// ([`Config::motion`](crate::Config::motion)). They apply to all frames until the next call. `None`, as
-    /// initially: the vectors are zero.
+    /// Sets the camera of the previous frame and the time from that frame to the next one drawn. Motion vectors are
+    /// computed from them ([`Config::motion`](crate::Config::motion)). Camera and time apply to all frames until the
+    /// next call. With `None`, as initially, the vectors are zero.
     pub fn previous(&mut self, previous: Option<Previous>) {
         self.previous = previous;
     }

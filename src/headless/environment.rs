@@ -71,13 +71,13 @@ impl Headless {
         self.pictures(extent, pixels, None, (scale, turn))
     }
 
-    /// Sets an equirectangular image that contains the sun, which the scene and [`Light`](crate::Light) also
-    /// describe, and the same image without the sun. The sky and the reflections in the particles' water show the image
-    /// with the sun. Diffuse light, and all light and reflections on the scene, come from the image without it, so that
-    /// the sun is not counted twice.
+    /// Sets two equirectangular images as environment: `pixels` with the sun, and `without_sun`, the same image
+    /// without it. Use it if the scene and [`Light`](crate::Light) describe the same sun, which would otherwise count
+    /// twice. The image with the sun is seen as the sky and in the reflections of the particles' water. The image
+    /// without it gives the environment's diffuse light on everything, and its reflections on the scene.
     ///
     /// # Errors
-    /// Those of [`equirectangular`](Self::equirectangular), and two images with different numbers of texels.
+    /// Those of [`equirectangular`](Self::equirectangular); also if `pixels` and `without_sun` differ in length.
     pub fn equirectangular_with_sun(
         &mut self,
         extent: vk::Extent2D,

@@ -200,9 +200,10 @@ impl Headless {
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
-    /// Number of whitewater particles alive after the last [`generate`](Self::generate), and number of those that were
-    /// not emitted in any step so far, because all `max_particles` slots were taken. Both are 0 while the emitted
-    /// whitewater is hidden.
+    /// Number of whitewater particles alive after the last [`generate`](Self::generate), and number of particles that
+    /// were never emitted because all `max_particles` slots were taken. The second number is a total over all steps;
+    /// a snapshot or another `max_particles` restarts it. Both numbers are 0 while the emitted whitewater is hidden
+    /// ([`hide_generated`](Self::hide_generated)).
     ///
     /// # Errors
     /// No memory; Vulkan errors.

@@ -384,9 +384,9 @@ impl Headless {
         }
     }
 
-    /// Uploads the motion of the particles uploaded last. It has velocities, for foam, whitewater, spray and motion
-    /// vectors, and `ids` that identify particles from frame to frame, so that foam, its noise and the droplets of
-    /// spray stay attached to their particles.
+    /// Uploads the velocities, and optionally the ids, of the particles whose positions were uploaded last.
+    /// Velocities are used for foam, whitewater, spray and motion vectors. Ids identify particles from frame to
+    /// frame, so that foam, its noise and the droplets of spray stay attached to their particles.
     ///
     /// # Errors
     /// A number of velocities or ids that differs from that of positions; no memory.
@@ -540,7 +540,8 @@ impl Headless {
         self.shown = some;
     }
 
-    /// Shows or hides whitewater in the frames that follow; initially it is shown. It stays uploaded.
+    /// Shows or hides all whitewater, uploaded or emitted ([`generate`](Self::generate)), in the frames that follow;
+    /// initially it is shown. Hidden whitewater is kept.
     pub fn show_whitewater(&mut self, shown: bool) {
         self.whitewater_shown = shown;
     }

@@ -126,8 +126,9 @@ pub struct ShoreMapStep<'a> {
 }
 
 impl<'a> ShoreMapStep<'a> {
-    /// A step over the whole area, for meshes whose buffers the CPU wrote before the submission, so without barriers
-    /// for them.
+    /// A step that computes the map of all of `area`, not only of a changed part. It is for meshes whose buffers the
+    /// CPU wrote before the submission: the step waits for no earlier use of them on the GPU, and makes no later use
+    /// wait.
     pub fn new(slot: Slot, area: Area, heights: Heights<'a>) -> Self {
         let (before, after) = (NOTHING, NOTHING);
         Self { slot, area, heights, changed: None, before, after }
@@ -578,11 +579,11 @@ impl ShoreMap {
         }
     }
 
-    /// Takes back the last recorded step, if it had this slot: the map is again what it was before that step. Call it
-    /// if the step's command buffer was discarded instead of submitted, also if the step failed with another error
-    /// than [`Error::BadInput`]. A step that was refused with that error recorded nothing, so an earlier step in
-    /// another slot can still be taken back. Other earlier steps cannot. The call frees nothing, so it is safe even
-    /// while GPU work is pending.
+    /// Takes back the last recorded step, if it was recorded with this slot: the map is again what it was before that
+    /// step. Otherwise the map stays. Call it if the step's command buffer was discarded instead of submitted, also
+    /// if the step failed with another error than [`Error::BadInput`]. A step that was refused with that error
+    /// recorded nothing, so an earlier step in another slot can still be taken back. Other earlier steps cannot. The
+    /// call frees nothing, so it is safe even while GPU work is pending.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

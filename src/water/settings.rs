@@ -18,8 +18,8 @@ pub enum Splat {
     Compute,
 }
 
-/// How the pass `composite` shades the pixels with water, foam or spray: by fragment shaders in a Vulkan render pass
-/// or by a compute shader. Both give the same picture.
+/// How the pass `composite` computes the pixels that show water, foam or spray: with fragment shaders in a Vulkan
+/// render pass or with a compute shader. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// The pixels are shaded in a render pass over the tiles that show water, foam, spray, whitewater particles or
@@ -120,8 +120,8 @@ pub enum Rule {
     /// [`Config::max_iterations`](crate::Config::max_iterations). Each iteration changes the pixel's depth in
     /// proportion to the surface's curvature.
     Source,
-    /// Mean curvature flow that smooths over the same width along the surface ([`WaterSettings::smoothing_width`]) at
-    /// any distance and slant.
+    /// Mean curvature flow. All water is smoothed over the same width, measured along its surface
+    /// ([`WaterSettings::smoothing_width`]): near and far, facing the camera and seen at a grazing angle. Default.
     ConstantWidth,
     /// As van der Laan et al. (2009): every pixel with water gets this number of iterations. A number above
     /// [`Config::max_iterations`](crate::Config::max_iterations) counts as that maximum. The size of a step is that
@@ -388,8 +388,9 @@ pub(crate) const EXIT_STEPS: u32 = 4;
 /// Index of refraction of water.
 pub(crate) const WATER_INDEX: f32 = 1.333;
 
-/// Height of the sprite that each particle adds to the image of water thickness. The sprite is
-/// `height·√(1 − ρ²)·exp(−2ρ²)`, where ρ is the distance from the centre in half-axes.
+/// Thickness (`height`) at the centre of the sprite that each particle adds to the image of water thickness.
+/// Elsewhere the sprite adds `height·√(1 − ρ²)·exp(−2ρ²)`, where ρ is the distance from the centre relative to the
+/// rim: 0 at the centre, 1 at the rim of the circle or ellipse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Amplitude {
@@ -481,10 +482,11 @@ impl Medium {
     /// measured with 2.9 litres of it in 23 litres and scaled to undiluted beer; scattering reduced by its mean
     /// cosine g; red, green and blue of a camera). Amber in a glass, black a metre deep. Index of refraction 1.345.
     pub const BEER: Self = Self::turbid([11.5, 24.9, 57.8], [0.0244, 0.0241, 0.0106]);
-    /// Honey, amber: a solution of half a gram per millilitre has an absorbance of 0.5 per centimetre at 450 nm
-    /// (Beretta et al., Analytica Chimica Acta 533, 2005, found 0.03 to 3.4), scaled to undiluted honey. With growing
-    /// wavelength λ absorption falls as `exp(-λ / 82 nm)`. This slope is an estimate: it is the slope of beer, whose
-    /// colour comes from the same reaction of sugars. No scattering. Index of refraction 1.49.
+    /// Honey, amber. At 450 nm a solution of half a gram per millilitre is taken to have an absorbance of 0.5 per
+    /// centimetre, which is scaled to undiluted honey. (Of real honeys Beretta et al., Analytica Chimica Acta 533,
+    /// 2005, found 0.03 to 3.4.) With growing wavelength λ absorption falls as `exp(-λ / 82 nm)`. This slope is an
+    /// estimate: it is the slope of beer, whose colour comes from the same reaction of sugars. No scattering. Index
+    /// of refraction 1.49.
     pub const HONEY: Self = Self::turbid([45.8, 95.2, 268.0], [0.0; 3]);
     /// Blood with oxygen: absorption of 150 g/l of haemoglobin by Prahl's table of its molar extinction, reduced
     /// scattering `2200 (λ/500 nm)^-0.66` per metre (Jacques, Phys. Med. Biol. 58, 2013, Table 1). Index of
@@ -575,7 +577,9 @@ pub struct WeberSettings {
     /// it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence. The host
     /// computes these as `scale·ρ·|v − air|²`.
     pub threshold: f32,
-    /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
+    /// Mean time that the foam of a particle takes to dissolve, once the particle's Weber number is below the
+    /// threshold, seconds, (0, ∞), default 1. Before that, foam lasts. In this time its amount falls evenly from 1 to
+    /// 0. For each particle the time is 0.5 to 1.5 times this setting.
     pub foam_lifetime: f32,
     /// World velocity of the air, scene units per second, finite, default 0.
     pub air: [f32; 3],
@@ -707,8 +711,9 @@ pub struct SurfaceFoamSettings {
     /// Foam thinner than this fades out, because thin veils look like steam. Scene units, [0, ∞), default one
     /// spacing, 0 = off. Not in the thesis.
     pub min_thickness: f32,
-    /// How strongly foam is shaded as a relief, whose height is the thickness of the front layer of foam, [0, 2],
-    /// default 0.35. Foam is brighter where the relief faces the sun and darker where it faces away. 0 = flat.
+    /// How strongly foam is shaded as a relief, whose height is the thickness of the front layer of foam
+    /// ([`front_depth`](Self::front_depth)), [0, 2], default 0.35. Foam is brighter where the relief faces the sun
+    /// and darker where it faces away. 0 = flat.
     pub normal_strength: f32,
     /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The shape around a point
     /// is found from the depths of the foam within six spacings. With 1, only skylight remains where the shape faces
@@ -729,7 +734,8 @@ pub struct SurfaceFoamSettings {
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis has no albedo: it blends a
     /// grey of 0.25 over its picture.)
     pub back_color: [f32; 3],
-    /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis blends white over its picture.)
+    /// Albedo of foam whose front layer is thick ([`front_extinction`](Self::front_extinction)), linear RGB, 0 to 1,
+    /// default white 0.9. (The thesis has no albedo: it blends white over its picture.)
     pub front_color: [f32; 3],
 }
 
@@ -862,8 +868,9 @@ pub struct SpraySettings {
     /// the foam to nothing.
     pub full_water_density: f32,
     /// Fraction of the rest density at and above which a particle has no spray, at least `all_spray_density`, default
-    /// 0.85. (With the defaults a particle in a single sheet of particles, which has 0.70, is about two thirds
-    /// spray.) The fractions of this struct replace [`WaterSettings::density_threshold`] and
+    /// 0.85. (In a sheet one particle thick the density is 0.70 of the rest density; with the defaults, particles
+    /// there are about two thirds spray.) With [`Config::spray`](crate::Config), `all_spray_density` is used in place
+    /// of [`WaterSettings::density_threshold`], and `full_water_density` in place of
     /// [`density_full`](WaterSettings::density_full).
     pub no_spray_density: f32,
     /// Maximum distance of droplets from the particle's centre, before [`stretch`](Self::stretch) moves them, in

@@ -27,8 +27,8 @@ pub struct BlobSimulationSettings {
     /// Distance between the centres of two blobs below which they attract each other, relative to the sum of their
     /// radii, (rest, 1.2], default 0.95. Below `rest` they repel each other.
     pub reach: f32,
-    /// Repulsion of two blobs: acceleration divided by the length by which their distance falls short of that of
-    /// `rest`, 1/s², (0, 100 000], default 4000.
+    /// Repulsion of two blobs, 1/s², (0, 100 000], default 4000. The acceleration of blobs of equal size is this
+    /// value times the length by which their centres are nearer to each other than the distance [`rest`](Self::rest).
     pub stiffness: f32,
     /// Maximum attraction of two blobs, scene units per second squared, [0, 100 000], default 12.
     pub cohesion: f32,
@@ -41,8 +41,8 @@ pub struct BlobSimulationSettings {
     /// Distance of a blob's centre from a solid below which the solid repels the blob, in radii of the blob, (0, 1],
     /// default 0.85: a blob at rest overlaps the solid, like foam that adheres to it.
     pub contact: f32,
-    /// Repulsion of a blob by a solid: acceleration divided by the length by which their distance falls short of
-    /// that of `contact`, 1/s², (0, 100 000], default 20 000.
+    /// Repulsion of a blob by a solid, 1/s², (0, 100 000], default 20 000. The acceleration is this value times the
+    /// length by which the blob's centre is nearer to the solid than the distance [`contact`](Self::contact).
     pub solidity: f32,
     /// Damping of the velocity along a solid's normal, 1/s, [0, 200], default 60.
     pub solid_damping: f32,

@@ -58,8 +58,8 @@ pub struct Scene {
     /// Rectangle, `[[min x, min z], [max x, max z]]`, of a basin whose water has splashed: stone and paving round
     /// it are damp in patches. `None`, the default: all is dry.
     pub splashed: Option<[[f32; 2]; 2]>,
-    /// World units per metre, (0, ∞), for procedural surfaces, whose grain has a fixed size in metres. `None`,
-    /// the default: 1.
+    /// World units per metre, (0, ∞), for procedural surfaces: their fine detail, such as grains of sand and fibres
+    /// of wood, has a fixed size in metres. (Lengths in [`Pattern`] are in world units.) `None`, the default: 1.
     pub metre: Option<f32>,
 }
 

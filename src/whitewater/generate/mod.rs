@@ -180,9 +180,10 @@ impl Generator {
         Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
-    /// Potentials of each fluid particle of the last step, in the order of the step's streams, as four `f32`: trapped
-    /// air, wave crest, energy (in the units of [`GeneratorSettings`]) and number of neighbours. A particle with a
-    /// non-finite or huge position or velocity has zeros. The buffer has transfer-source usage.
+    /// Four `f32` for each fluid particle of the last step, in the order of the particles in that step's input: the
+    /// potentials of trapped air, wave crest and energy, in the units of [`GeneratorSettings`], and the number of
+    /// neighbours. All four are 0 for a particle with a non-finite or huge position or velocity (10¹⁸, or a position
+    /// of 2³¹ spacings). The buffer has transfer-source usage.
     pub fn potentials(&self) -> vk::Buffer {
         self.passes.buffers.potentials.handle
     }
@@ -241,9 +242,9 @@ impl Generator {
         }
     }
 
-    /// Takes back the last recorded step, if it had this slot: the state is again what it was before that step. Call
-    /// it if the step's command buffer was discarded instead of submitted. Earlier steps cannot be taken back, except
-    /// by [`record_restore`](Self::record_restore).
+    /// Takes back the last recorded step, if it was recorded with this slot: the state is again what it was before
+    /// that step. Otherwise the state stays. Call it if the step's command buffer was discarded instead of submitted.
+    /// Earlier steps cannot be taken back, except by [`record_restore`](Self::record_restore).
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(own) = self.slots.get_mut(slot.0 as usize) {
             own.timer.abandon();
