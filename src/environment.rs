@@ -506,7 +506,7 @@ mod tests {
     #[test]
     fn bad_sources_name_their_field() {
         let sky = Sky::default();
-        let state = crate::gpu::access::NOTHING;
+        let state = COMPUTE_SAMPLED;
         let (image, view) = (vk::Image::null(), vk::ImageView::null());
         let format = vk::Format::R32G32B32A32_SFLOAT;
         let extent = vk::Extent2D { width: 2, height: 1 };

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use super::samples::{self, floats, npz};
 use whitewater::io::particles::{
-    Extension, Format, Particles, Parts, ReadError, read_bytes, steps,
+    AttributeType, Extension, Format, Particles, Parts, ReadError, read_bytes, steps,
 };
 
 fn npy(descr: &str, shape: &str, fortran: bool, raw: &[u8]) -> Vec<u8> {
@@ -97,6 +97,11 @@ fn arrays_of_more_columns_or_fewer() {
     ];
     let p = read("two", &npz(&two, false), Extension::Npz);
     assert_eq!(p.velocities.unwrap()[5][2], 0.0);
+    let array = |columns: usize| npy("<f4", &format!("(11, {columns})"), false, &rows(columns));
+    let p = read("vel", &npz(&[("pos", array(3)), ("vel", array(4))], false), Extension::Npz);
+    assert_eq!(p.velocities, Some(cloud.positions));
+    let told = "array `vel` has 4 columns: the first 3 are taken as velocities";
+    assert!(p.warnings.len() == 1 && p.warnings[0].contains(told), "{:?}", p.warnings);
 }
 
 #[test]
@@ -183,6 +188,127 @@ fn the_time_of_a_zip_of_arrays() {
                 assert_eq!(parts.next().unwrap().unwrap().time, expected, "{name} {shape}");
             }
         }
+    }
+}
+
+/// A step number is no time, whichever comes first.
+#[test]
+fn the_time_of_a_zip_is_not_its_step() {
+    let raw = floats(samples::cloud().positions.as_flattened(), 4, false);
+    let doubles = |values: &[f64]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<_>>();
+    let position = ("position", npy("<f4", "(11, 3)", false, &raw));
+    let step = ("step", npy("<i8", "()", false, &400_i64.to_le_bytes()));
+    let frames = ("pos", npy("<f4", "(3, 11, 3)", false, &raw.repeat(3)));
+    let numbers = ("step", npy("<f8", "(3,)", false, &doubles(&[0.0, 100.0, 200.0])));
+    let folder = Folder::new("times-of-zips");
+    for name in ["time", "t", "simTime"] {
+        let time = (name, npy("<f8", "()", false, &0.04_f64.to_le_bytes()));
+        let times = (name, npy("<f8", "(3,)", false, &doubles(&[0.0, 0.25, 0.5])));
+        for turned in [false, true] {
+            let order = |mut last: Vec<(&'static str, Vec<u8>)>| {
+                if turned {
+                    last.reverse();
+                }
+                npz(&last, true)
+            };
+            let one = order(vec![position.clone(), step.clone(), time.clone()]);
+            assert_eq!(read("time", &one, Extension::Npz).time, Some(0.04), "{name} {turned}");
+            let several = order(vec![frames.clone(), times.clone(), numbers.clone()]);
+            let all = steps(&folder.put("t.npz", several)).unwrap();
+            let found: Vec<_> = all.iter().map(|step| step.time).collect();
+            assert_eq!(found, [0.0, 0.25, 0.5].map(Some), "{name} {turned}");
+        }
+    }
+}
+
+/// `p` may be a momentum beside the positions `x`, `y`, `z`.
+#[test]
+fn coordinates_precede_a_vague_array() {
+    let cloud = samples::cloud();
+    let all = columns(&cloud.positions);
+    let axis = |k: usize| npy("<f4", "(11,)", false, &floats(&all[11 * k..][..11], 4, false));
+    let other = floats(cloud.velocities.unwrap().as_flattened(), 4, false);
+    let other = npy("<f4", "(11, 3)", false, &other);
+    for name in ["p", "r"] {
+        let arrays = [("x", axis(0)), ("y", axis(1)), ("z", axis(2)), (name, other.clone())];
+        let p = read(name, &npz(&arrays, true), Extension::Npz);
+        assert_eq!((p.positions, p.velocities), (cloud.positions.clone(), None), "{name}");
+    }
+}
+
+/// Kinds and ids of words are left out; what the picture needs is not.
+#[test]
+fn arrays_of_words_are_left_out() {
+    let cloud = samples::cloud();
+    let positions = npy("<f4", "(11, 3)", false, &floats(cloud.positions.as_flattened(), 4, false));
+    let words = npy("<U1", "(11,)", false, &[0; 44]);
+    let objects = npy("|O", "(11,)", false, &[0; 44]);
+    for deflate in [false, true] {
+        for name in ["type", "label"] {
+            let arrays = [("pos", positions.clone()), (name, words.clone())];
+            let p = read(name, &npz(&arrays, deflate), Extension::Npz);
+            assert_eq!((&p.positions, p.kinds, p.ids), (&cloud.positions, None, None), "{name}");
+            let told = format!("array `{name}` is not read: it holds text (dtype <U1)");
+            assert_eq!(p.warnings, [told]);
+            assert_eq!(p.attributes[1].ty, AttributeType::Text);
+        }
+        let arrays = [("pos", positions.clone()), ("type", objects.clone())];
+        let p = read("objects", &npz(&arrays, deflate), Extension::Npz);
+        assert!(p.warnings[0].contains("it holds Python objects"), "{:?}", p.warnings);
+    }
+    let arrays = [("pos", positions), ("rho", words)];
+    error(&npz(&arrays, false), Extension::Npz, &["array `rho` of dtype <U1"]);
+}
+
+/// PySPH pickles dicts into its NPZ files.
+#[test]
+fn objects_of_python_are_named() {
+    let object = npy("|O", "()", false, &[0; 50]);
+    let arrays = [("version", npy("<i8", "()", false, &[0; 8])), ("particles", object.clone())];
+    let parts = ["Python objects (in `particles`; perhaps of PySPH)", "np.savez", "HDF5"];
+    error(&npz(&arrays, true), Extension::Npz, &parts);
+    // Beside positions they are no matter.
+    let raw = floats(samples::cloud().positions.as_flattened(), 4, false);
+    let arrays = [("pos", npy("<f4", "(11, 3)", false, &raw)), ("particles", object)];
+    let p = read("beside", &npz(&arrays, true), Extension::Npz);
+    assert!(p.positions.len() == 11 && p.warnings.is_empty(), "{:?}", p.warnings);
+}
+
+/// Fields with the names of keys of the header.
+#[test]
+fn fields_called_as_the_keys() {
+    let cloud = samples::cloud();
+    let row = |p: &[f32; 3]| [floats(p, 4, false), vec![7; 4]].concat();
+    let raw: Vec<u8> = cloud.positions.iter().flat_map(row).collect();
+    for name in ["shape", "fortran_order", "descr"] {
+        let descr = format!("[('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('{name}', '<i4')]");
+        let p = read(name, &npy(&descr, "(11,)", false, &raw), Extension::Npy);
+        assert_eq!((&p.positions, p.warnings.len()), (&cloud.positions, 0), "{name}");
+    }
+}
+
+/// From 2^24 on, 32-bit floats do not tell ids apart.
+#[test]
+fn ids_that_floats_do_not_hold_are_dropped() {
+    let raw = floats(samples::cloud().positions.as_flattened(), 4, false);
+    let positions = npy("<f4", "(11, 3)", false, &raw);
+    for (first, descr, size, kept) in [
+        (16_777_205_u32, "<f4", 4, true),
+        (16_777_206, "<f4", 4, false),
+        (33_554_432, "<f4", 4, false),
+        (16_777_206, "<f8", 8, true),
+    ] {
+        let doubles: Vec<f64> = (first..first + 11).map(f64::from).collect();
+        let raw: Vec<u8> = match size {
+            4 => doubles.iter().flat_map(|id| (*id as f32).to_le_bytes()).collect(),
+            _ => doubles.iter().flat_map(|id| id.to_le_bytes()).collect(),
+        };
+        let arrays = [("pos", positions.clone()), ("id", npy(descr, "(11,)", false, &raw))];
+        let p = read("ids", &npz(&arrays, false), Extension::Npz);
+        let expected = kept.then(|| (first..first + 11).collect::<Vec<_>>());
+        assert_eq!(p.ids, expected, "{first} {descr}");
+        let told = p.warnings.iter().any(|w| w.contains("not exact from 16777216 on"));
+        assert_eq!(told, !kept, "{first} {descr}: {:?}", p.warnings);
     }
 }
 
@@ -511,6 +637,104 @@ fn shapes_of_json_that_are_refused() {
     ] {
         error(text.as_bytes(), Extension::Json, &parts);
     }
+}
+
+/// Vectors that are objects of lists, one for each component.
+#[test]
+fn vectors_of_json_as_lists_of_components() {
+    let read = |text: &str| read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    let vector = |x: &str, y: &str, z: &str| format!("{{\"x\":{x},\"y\":{y},\"z\":{z}}}");
+    let (p, v) = (vector("[0,1,2]", "[5,5,5]", "[7,8,9]"), vector("[9,8,7]", "[0,0,0]", "[1,1,2]"));
+    let fluid = format!("{{\"position\":{p},\"velocity\":{v},\"id\":[7,8,9]}}");
+    for text in [fluid.clone(), format!("{{\"time\":0.5,\"fluid\":{fluid}}}"), format!("[{fluid}]")]
+    {
+        let found = read(&text);
+        assert_eq!(found.positions, [[0.0, 5.0, 7.0], [1.0, 5.0, 8.0], [2.0, 5.0, 9.0]], "{text}");
+        assert_eq!(found.velocities.unwrap()[2], [7.0, 0.0, 2.0], "{text}");
+        assert_eq!(found.ids, Some(vec![7, 8, 9]), "{text}");
+        assert!(found.warnings.is_empty(), "{text}: {:?}", found.warnings);
+    }
+    // As many particles as dimensions, and fewer dimensions.
+    let found = read(&format!("{{\"pos\":{}}}", vector("[0,1]", "[5,6]", "[7,8]")));
+    assert_eq!(found.positions, [[0.0, 5.0, 7.0], [1.0, 6.0, 8.0]]);
+    let found = read("{\"pos\":{\"X\":[0,1,2],\"Y\":[5,6,7]}}");
+    assert_eq!(found.positions, [[0.0, 5.0, 0.0], [1.0, 6.0, 0.0], [2.0, 7.0, 0.0]]);
+    assert!(found.warnings[0].contains("two components"), "{:?}", found.warnings);
+    let uneven = format!("{{\"pos\":{}}}", vector("[0,1]", "[5,6]", "[7]"));
+    error(uneven.as_bytes(), Extension::Json, &["as many numbers", "`pos`", "[2, 2, 1]"]);
+}
+
+/// A list of one number for each particle is no vector, though it has the name of a velocity.
+#[test]
+fn speeds_of_json_are_no_velocities() {
+    for (points, speed) in [
+        ("[0,0,0],[1,0,0],[0,1,0]", "\"speed\":[1,2,3]"),
+        ("[0,0,0],[1,0,0],[0,1,0],[0,0,1]", "\"speed\":[1,2,3,4]"),
+        ("[0,0,0],[1,0,0],[0,1,0],[0,0,1]", "\"velocity\":[1,2,3,4]"),
+    ] {
+        let text = format!("{{\"positions\":[{points}],{speed}}}");
+        let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+        assert_eq!((p.positions[1], p.velocities), ([1.0, 0.0, 0.0], None), "{text}");
+        let listed: Vec<_> = p.attributes.iter().map(|a| (a.name.as_str(), a.components)).collect();
+        assert!(listed.contains(&(speed.split('"').nth(1).unwrap(), 1)), "{text}: {listed:?}");
+    }
+    let text = "{\"positions\":[[0,0,0],[1,0,0]],\"velocity\":[1,2,3,4,5,6]}";
+    let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    assert_eq!(p.velocities, Some(vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]));
+}
+
+/// Words as kinds and ids do not keep the particles from being read.
+#[test]
+fn words_of_json_as_kinds_and_ids() {
+    let x = "\"x\":[0,1],\"y\":[2,3],\"z\":[4,5]";
+    let rows = |name: &str, words: [&str; 2]| {
+        let row = |i: usize| format!("{{\"x\":{i},\"y\":2,\"z\":4,\"{name}\":{}}}", words[i]);
+        format!("[{},{}]", row(0), row(1))
+    };
+    for (name, words) in [
+        ("type", ["\"fluid\"", "\"wall\""]),
+        ("type", ["true", "false"]),
+        ("type", ["1", "\"wall\""]),
+        ("label", ["\"a\"", "\"b\""]),
+        ("id", ["3", "\"p2\""]),
+        ("id", ["\"p1\"", "\"p2\""]),
+    ] {
+        for text in [format!("{{{x},\"{name}\":[{}]}}", words.join(",")), rows(name, words)] {
+            let p = read_bytes(text.as_bytes(), Extension::Json)
+                .unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert_eq!(p.positions[0], [0.0, 2.0, 4.0], "{text}");
+            assert_eq!((p.kinds, p.ids), (None, None), "{text}");
+            let told = format!("`{name}` is not used");
+            assert!(p.warnings[0].contains(&told), "{text}: {:?}", p.warnings);
+            assert_eq!(p.warnings.len(), 1, "{text}: {:?}", p.warnings);
+        }
+    }
+    // An attribute that changes the picture has to be numbers, and unknown words are no matter.
+    let text = format!("{{{x},\"density\":[1,\"a\"]}}");
+    error(text.as_bytes(), Extension::Json, &["numbers in `density`"]);
+    let text = format!("{{{x},\"name\":[\"a\",\"b\"]}}");
+    assert!(read_bytes(text.as_bytes(), Extension::Json).unwrap().warnings.is_empty());
+}
+
+/// Attributes that not all particles have: some are missing, and what few have is dropped.
+#[test]
+fn attributes_of_json_that_some_particles_lack() {
+    for text in [
+        "[{\"position\":[0,0,0]},{\"position\":[1,0,0],\"velocity\":[1,2,3]}]",
+        "[{\"position\":[0,0,0],\"velocity\":null},{\"position\":[1,0,0],\"velocity\":[1,2,3]}]",
+    ] {
+        let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+        let v = p.velocities.expect("velocities");
+        assert!(v[0].iter().all(|c| c.is_nan()) && v[1] == [1.0, 2.0, 3.0], "{text}: {v:?}");
+        assert!(p.warnings[0].contains("1 of 2 velocities"), "{text}: {:?}", p.warnings);
+        let names: Vec<_> = p.attributes.iter().map(|a| (a.name.as_str(), a.components)).collect();
+        assert_eq!(names, [("position", 3), ("velocity", 3)], "{text}");
+    }
+    let text = "[{\"pos\":[0,0,0]},{\"pos\":[1,0,0]},{\"pos\":[2,0,0],\"rho\":1,\"note\":\"a\"}]";
+    let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    assert_eq!((p.positions.len(), p.densities, p.attributes.len()), (3, None, 3));
+    let told = "attribute `rho` is dropped: only 1 of 3 particles have it";
+    assert_eq!(p.warnings, [told]);
 }
 
 /// Numbers in quotes, as csv.DictReader of Python leaves them.

@@ -138,7 +138,16 @@ fn fields_of_points_come_first() {
     assert_eq!((p.densities, p.ids), (Some(vec![1.0, 2.0, 3.0]), Some(vec![50, 60, 40])));
     assert!(p.warnings[0].contains("not used: `Rho`; the points have"), "{:?}", p.warnings);
     let names: Vec<_> = p.attributes.iter().map(|a| a.name.as_str()).collect();
-    assert_eq!(names, ["unnamed", "rho", "id", "stress"]);
+    assert_eq!(names, ["Points", "rho", "id", "stress"]);
+}
+
+/// Points without a name are listed as VTK names them, and as positions.
+#[test]
+fn points_without_a_name_are_positions() {
+    let p = parsed(&xml((0, "", ""), "", &array("rho", "1 2 3")), Extension::Vtp);
+    let (meaning, names) = &p.meanings[0];
+    assert_eq!((*meaning, names.as_slice()), (Meaning::Position, &["Points".to_string()][..]));
+    assert_eq!(p.attributes[0].name, "Points");
 }
 
 /// A field without a value for each cell is told, and the others are read.

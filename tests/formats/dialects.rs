@@ -1,6 +1,9 @@
 //! The same particles in the layouts and with the attribute names of common programs.
 
-use whitewater::io::particles::{Extension, Format, Particles, read_bytes};
+use super::folder::Folder;
+use whitewater::io::particles::{
+    Extension, Format, Meaning, Particles, Parts, read_bytes, read_step, steps,
+};
 
 fn read(text: &str, hint: Extension) -> Particles {
     read_bytes(text.as_bytes(), hint).unwrap_or_else(|e| panic!("{e}\n{text}"))
@@ -204,6 +207,7 @@ fn names_of_arrays() {
         ("Coordinates", "Velocities"),
         ("points", "U"),
         ("location", "u"),
+        ("position", "linVelVec"),
     ] {
         let text = format!("{{\"{position}\":[[1,2,3],[4,5,6]],\"{velocity}\":[[0,1,0],[1,0,0]]}}");
         let p = read(&text, Extension::Json);
@@ -374,8 +378,6 @@ fn elements_of_counted_xyz() {
     let expected = [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]];
     for text in [
         "2\nframe 8\nO 1 2.5 3\nH 4 5 6\n",
-        "2\n\n1 1 2.5 3\n1 4 5 6\n",
-        "2\nAtoms. Timestep: 0\n12 1 2.5 3\n7 4 5 6\n",
         "2\n1 2.5 3\n4 5 6\n",
         "2\n\n1 2.5 3\n4 5 6\n",
         "O 1 2.5 3\nH 4 5 6\n",
@@ -391,6 +393,42 @@ fn elements_of_counted_xyz() {
     let p = read("2\n\nO 1 2.5 3 0.1 0.2 0.3\nH 4 5 6 0.1 0.2 0.3\n", Extension::Xyz);
     assert_eq!(p.positions, expected);
     assert!(p.warnings[0].contains("element"), "{:?}", p.warnings);
+    // Whole numbers may be elements or coordinates, which is told.
+    for text in ["2\n\n1 1 2.5 3\n1 4 5 6\n", "2\nAtoms. Timestep: 0\n12 1 2.5 3\n7 4 5 6\n"] {
+        let p = read(text, Extension::Xyz);
+        assert_eq!(p.positions, expected, "{text}");
+        assert!(p.warnings[0].contains("whole numbers, is taken as the element"), "{text}");
+    }
+    // No element has the number 0.
+    let p = read("3\n\n0 1 2 1.5\n1 0 2 2.5\n1 1 2 4.5\n", Extension::Xyz);
+    assert_eq!(p.positions, [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0], [1.0, 1.0, 2.0]]);
+    assert!(p.warnings[0].contains("the first 3 of 4 columns"), "{:?}", p.warnings);
+}
+
+/// A row with too many numbers is refused; a comment may follow the numbers.
+#[test]
+fn rows_that_are_too_long_are_refused() {
+    for head in ["", "x y z\n", "2\n\n"] {
+        let parts = ["3 values in each line", "found 6 in \"4 5 6 7 8 9\""];
+        let error = error(&format!("{head}1 2 3\n4 5 6 7 8 9\n"), Extension::Xyz, &parts);
+        assert!(!error.contains("cut off"), "{error}");
+    }
+    let p = read("1 2 3\n4 5 6 # 7\n7 8 9 // last 1\n1 1 1 ! 8\n", Extension::Xyz);
+    assert_eq!(p.positions[1..], [[4.0, 5.0, 6.0], [7.0, 8.0, 9.0], [1.0; 3]]);
+}
+
+#[test]
+fn blank_lines_of_tables_are_skipped() {
+    for blank in ["   ", " \t"] {
+        let text = format!("x,y,z,id\n0,0,0,1\n{blank}\n1,0,0,2\n{blank}");
+        for text in [text.clone(), text + "\n"] {
+            let p = read(&text, Extension::Csv);
+            assert_eq!((p.positions.len(), p.ids), (2, Some(vec![1, 2])), "{text}");
+        }
+    }
+    // The last line that is not blank may be cut off.
+    let parts = ["4 fields", "found 2 in line 3", "the last line"];
+    error("x,y,z,id\n0,0,0,1\n1,0\n   \n", Extension::Csv, &parts);
 }
 
 #[test]
@@ -650,7 +688,104 @@ fn two_axes_and_words() {
     let p = read("x,y,z,type\n1,2,3,water\n4,5,6,oil\n", Extension::Csv);
     assert_eq!((p.positions.len(), p.kinds), (2, None));
     assert!(p.warnings[0].contains("`type` is dropped"), "{:?}", p.warnings);
+    let p = read("x,y,z,label\n0,0,0,fluid\n1,0,0,wall\n", Extension::Csv);
+    assert_eq!((p.positions.len(), p.ids), (2, None));
+    assert!(p.warnings[0].contains("`label` is dropped: the word"), "{:?}", p.warnings);
     error("x,y,z,rho\n1,2,3,water\n", Extension::Csv, &["a number in column `rho`", "water"]);
+}
+
+/// `u` may be a displacement beside the velocity `vx vy vz`.
+#[test]
+fn three_components_precede_a_vague_vector() {
+    let component = |name: &str, a: u8, b: u8| {
+        format!("SCALARS {name} float 1\nLOOKUP_TABLE default\n{a}\n{b}\n")
+    };
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n\
+                0 0 0\n1 2 3\nPOINT_DATA 2\nVECTORS u float\n9 9 9\n9 9 9\n";
+    let components = [component("vx", 1, 4), component("vy", 2, 5), component("vz", 3, 6)];
+    let p = read(&format!("{head}{}", components.concat()), Extension::Vtk);
+    assert_eq!(p.velocities, Some(vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]));
+    // Alone, `u` is the velocity.
+    assert_eq!(read(head, Extension::Vtk).velocities, Some(vec![[9.0; 3]; 2]));
+}
+
+/// Two components are a velocity in two dimensions, or if their names say so.
+#[test]
+fn two_scalars_are_no_velocity_in_space() {
+    for (text, hint, told) in [
+        ("x,y,z,u,v\n1,2,3,4,5\n", Extension::Csv, "`u` and `v` are not taken"),
+        ("x y z rho u w\n1 2 3 4 5 6\n", Extension::Xyz, "`u` and `w` are not taken"),
+        ("x,z,u,v\n1,2,3,4\n", Extension::Csv, "`u` and `v` are not taken"),
+    ] {
+        let p = read(text, hint);
+        assert_eq!(p.velocities, None, "{text}");
+        assert!(p.warnings.iter().any(|w| w.contains(told)), "{text}: {:?}", p.warnings);
+        assert!(p.meanings.iter().all(|(meaning, _)| *meaning != Meaning::Velocity), "{text}");
+    }
+    let p = read("x,y,u,v\n1,2,3,4\n", Extension::Csv);
+    assert_eq!((p.velocities, p.warnings.len()), (Some(vec![[3.0, 4.0, 0.0]]), 1));
+    let p = read("x,y,z,vx,vy\n1,2,3,4,5\n", Extension::Csv);
+    assert_eq!(p.velocities, Some(vec![[4.0, 5.0, 0.0]]));
+    let told = "velocities have two components (`vx` and `vy`)";
+    assert!(p.warnings.len() == 1 && p.warnings[0].contains(told), "{:?}", p.warnings);
+}
+
+/// Houdini's `life` is the time that a particle may live in all.
+#[test]
+fn the_time_left_is_the_life_less_the_age() {
+    let text = "x,y,z,life,age\n0,0,0,2,0.5\n1,0,0,2,3\n";
+    let p = read(text, Extension::Csv);
+    assert_eq!(p.lifetimes, Some(vec![1.5, -1.0]));
+    assert!(p.warnings.is_empty(), "{:?}", p.warnings);
+    let meaning = p.meanings.iter().find(|(meaning, _)| *meaning == Meaning::Lifetime);
+    assert_eq!(meaning.unwrap().1, ["life", "age"]);
+    let parts = Parts::of_bytes(text.as_bytes(), Extension::Csv, 1).unwrap();
+    let parts: Vec<_> = parts.flat_map(|part| part.unwrap().lifetimes.unwrap()).collect();
+    assert_eq!(parts, [1.5, -1.0]);
+    let p = read("x,y,z,life\n0,0,0,2\n", Extension::Csv);
+    assert_eq!(p.lifetimes, None);
+    assert!(p.warnings[0].contains("`life` is not used"), "{:?}", p.warnings);
+    let p = read(&text.replace("life", "lifetime"), Extension::Csv);
+    assert_eq!(p.lifetimes, Some(vec![1.5, -1.0]));
+    assert!(p.warnings[0].contains("`lifetime` less `age`"), "{:?}", p.warnings);
+    let p = read("x,y,z,lifetime\n0,0,0,2\n", Extension::Csv);
+    assert_eq!((p.lifetimes, p.warnings.len()), (Some(vec![2.0]), 0));
+    let p = read("x,y,z,age\n0,0,0,2\n", Extension::Csv);
+    assert_eq!((p.lifetimes, p.warnings.len()), (None, 0));
+}
+
+#[test]
+fn missing_densities_and_lifetimes_are_told() {
+    let text = "x,y,z,rho,lifetime\n0,0,0,1,1\n1,0,0,,\n2,0,0,3,nan\n";
+    let told = ["1 of 3 densities are missing", "2 of 3 lifetimes are missing"];
+    let parts = Parts::of_bytes(text.as_bytes(), Extension::Csv, 1).unwrap();
+    for warnings in [&read(text, Extension::Csv).warnings, &parts.about().warnings] {
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        for (warning, told) in warnings.iter().zip(told) {
+            assert!(warning.contains(told), "{warning}");
+        }
+    }
+    // An infinite lifetime is one.
+    let p = read("x,y,z,lifetime\n0,0,0,inf\n", Extension::Csv);
+    assert!(p.warnings.is_empty(), "{:?}", p.warnings);
+}
+
+/// The time of a frame is its time and not its number, whatever comes first.
+#[test]
+fn times_precede_steps() {
+    let folder = Folder::new("times-before-steps");
+    for names in ["timestep,time", "step,time", "Iteration,sim_time"] {
+        let row = |k: usize, i: usize| format!("{},{},{i},{i},{k},0\n", 100 * k, 0.25 * k as f64);
+        let rows: String = (0..3).flat_map(|k| (0..2).map(move |i| row(k, i))).collect();
+        let path = folder.put("t.csv", format!("{names},id,x,y,z\n{rows}"));
+        let all = steps(&path).unwrap();
+        let times: Vec<_> = all.iter().map(|step| step.time).collect();
+        assert_eq!(times, [0.0, 0.25, 0.5].map(Some), "{names}");
+        let last = read_step(&path, all[2], &[]).unwrap();
+        assert_eq!((last.time, last.positions[1]), (Some(0.5), [1.0, 2.0, 0.0]), "{names}");
+    }
+    let p = read("step,time,x,y,z\n400,0.25,0,0,0\n400,0.25,1,0,0\n", Extension::Csv);
+    assert_eq!(p.time, Some(0.25));
 }
 
 #[test]
@@ -676,6 +811,74 @@ fn tables_of_tecplot() {
     // A column may be called `zone`.
     let named = format!("zone x y z\n1 {}", "0 1 2\n");
     assert_eq!(read(&named, Extension::Xyz).positions, [[0.0, 1.0, 2.0]]);
+}
+
+/// A zone has as many rows as its record says; of a mesh, the elements behind the nodes are no particles.
+#[test]
+fn zones_have_the_rows_of_their_records() {
+    let head = "TITLE = \"mesh\"\nVARIABLES = \"X\" \"Y\" \"Z\"\n";
+    let nodes = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+    let at = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let zone = |record: &str, rows: &str| format!("{head}ZONE {record}\n{rows}");
+    for (record, elements) in [
+        ("N=4, E=2, F=FEPOINT, ET=TETRAHEDRON", "1 2 3 4\n1 3 2 4\n"),
+        ("NODES=4, ELEMENTS=2, ZONETYPE=FETRIANGLE, DATAPACKING=POINT", "1 2 3\n1 3 2\n"),
+        ("N=4\n\n# more\n E=2\n ET=TRIANGLE\n F=FEPOINT", "1 2 3\n1 3 2\n"),
+        ("T=\"I=9, N=7\", N=4, E=1, F=FEPOINT, ET=TRIANGLE", "1,2,3\n"),
+        ("N=4, E=2, F=FEPOINT, ET=TRIANGLE, CONNECTIVITYSHAREZONE=1", ""),
+    ] {
+        let p = read(&zone(record, &format!("{nodes}{elements}")), Extension::Text);
+        assert_eq!(p.positions, at, "{record}");
+        let told = p.warnings.iter().any(|told| told.contains("1 of 1 zones are meshes"));
+        assert!(told, "{record}: {:?}", p.warnings);
+    }
+    // A line of elements may be shorter than a row.
+    let text = zone("N=4, E=1, F=FEPOINT, ET=TETRAHEDRON", &nodes.replace('\n', " 1000 1\n"));
+    let text = text.replace("\"Z\"", "\"Z\" \"RHO\" \"ID\"") + "1 2 3 4\n";
+    assert_eq!(read(&text, Extension::Text).positions, at);
+    // Zones of one frame have records of their own.
+    let wall = format!("ZONE T=\"wall\", N=4, E=1, F=FEPOINT, ET=TETRAHEDRON\n{nodes}1 2 3 4\n");
+    let both = zone("T=\"fluid\", I=2, F=POINT", "0 0 5\n1 0 5\n") + &wall;
+    let p = read(&both, Extension::Text);
+    assert_eq!(p.positions.len(), 6);
+    assert!(p.warnings[1].contains("1 of 2 zones are meshes"), "{:?}", p.warnings);
+    let rows = "rows in a zone of Tecplot, as its record says";
+    let blocks = "0 0.1 0.2 0.3\n0.4 0.5 0.6 0.7\n".repeat(3);
+    for (text, parts) in [
+        (zone("I=6, F=POINT", nodes), [rows, "expected 6 ", "found 4 in line 7"]),
+        (zone("I=3, F=POINT", nodes), [rows, "expected 3 ", "found more in line 7"]),
+        (zone("I=2, J=2, K=2, F=POINT", nodes), [rows, "expected 8 ", "found 4 in line 7"]),
+        (zone("I=4, F=POINT", "0 0 0\n1 0 0\n0 1 0\n0 0"), [rows, "found 3 in line 7", "cut off"]),
+        (zone("T=\"a\", I=5, F=POINT", nodes) + &wall, [rows, "expected 5 ", "found 4 in line 7"]),
+        (
+            zone("N=3, E=1, F=FEPOINT, ET=TRIANGLE", &format!("{nodes}1 2 3\n")),
+            [rows, "expected 3 ", "found more in line 8"],
+        ),
+        (
+            zone("I=8, J=1, K=1", &blocks),
+            ["without DATAPACKING", "4 values in its first line, for 3 variables", "=POINT"],
+        ),
+        (
+            zone("I=4, VARSHARELIST=([1]=1)", nodes),
+            ["values of its own", "line 3", "without VARSHARELIST"],
+        ),
+        (
+            zone("F=FEPOINT, ET=TRIANGLE", nodes),
+            ["without the number of its nodes", "line 3", "NODES"],
+        ),
+    ] {
+        error(&text, Extension::Text, &parts);
+    }
+    let p = read(&zone("I=2, J=2, F=POINT", nodes), Extension::Text);
+    assert_eq!(p.positions, at);
+    assert!(p.warnings[0].contains("1 of 1 zones are grids"), "{:?}", p.warnings);
+    // Three lines of three values may be rows or blocks.
+    for (record, told) in [("I=3", true), ("I=3, F=POINT", false)] {
+        let p = read(&zone(record, "0 0 1\n1 0 2\n0 1 3\n"), Extension::Text);
+        assert_eq!(p.positions.len(), 3);
+        let found = p.warnings.iter().any(|told| told.contains("no DATAPACKING"));
+        assert_eq!(found, told, "{record}: {:?}", p.warnings);
+    }
 }
 
 #[test]

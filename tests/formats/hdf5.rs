@@ -1,4 +1,4 @@
-//! HDF5 and XDMF files, which `hdf5/make.py` wrote with the original libraries.
+//! HDF5 and XDMF files, which `hdf5/make.py` and `hdf5/make_groups.py` wrote with the original libraries.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use super::samples::{self, Has};
 use super::{allocation, folder::Folder};
 use whitewater::io::particles::{
     Extension, Format, Meaning, Particles, Parts, ReadError, Step, read, read_bytes, read_step,
-    steps,
+    read_with, steps,
 };
 
 fn path(name: &str) -> PathBuf {
@@ -196,6 +196,141 @@ fn units_are_part_of_the_names() {
     let names: Vec<_> = particles.attributes.iter().map(|a| a.name.as_str()).collect();
     for name in ["velocity [mm/s]", "density [kg/m3]", "id"] {
         assert!(names.contains(&name), "{name}: {names:?}");
+    }
+}
+
+/// A group of x, y and z is a vector of the particles around it, not more particles.
+#[test]
+fn groups_of_components_are_vectors() {
+    let particles = read(&path("components.h5")).unwrap();
+    samples::check("components", &particles, Has::All);
+    let told = "not read, because their number of values is not that of the positions beside them: \
+                /particles/probes";
+    assert_eq!(particles.warnings, [told]);
+    let names: Vec<_> = particles.attributes.iter().map(|a| a.name.as_str()).collect();
+    for name in ["positions_x", "velocities_z", "force_y", "id", "density"] {
+        assert!(names.contains(&name), "{name}: {names:?}");
+    }
+    let particles = read(&path("velocity_group.h5")).unwrap();
+    samples::check("velocity_group", &particles, Has::All);
+    assert!(particles.warnings.is_empty(), "{:?}", particles.warnings);
+    // Without the name of positions such groups are particles.
+    let particles = read(&path("bare.h5")).unwrap();
+    samples::check("bare", &particles, Has::Positions);
+    assert_eq!(particles.warnings, ["groups that are not fluid are not read: /floor"]);
+}
+
+#[test]
+fn times_come_before_step_numbers() {
+    assert_eq!(times("step_time.h5"), [Some(0.0), Some(0.5)]);
+}
+
+/// What netCDF packed is unpacked; a missing value becomes NaN.
+#[test]
+fn packed_values_are_unpacked() {
+    let particles = read_with(&path("packed.h5"), &["depth"]).unwrap();
+    samples::check("packed", &particles, Has::All);
+    let depth = &particles.extras[0].values;
+    assert!(depth[3].is_nan() && depth[4] == 8.0 && depth.len() == samples::COUNT, "{depth:?}");
+    let error = read(&path("badly_packed.h5")).unwrap_err().to_string();
+    assert!(error.contains("position`, whose `scale_factor` is not a number"), "{error}");
+}
+
+/// A series with two grids; the second takes its velocities from the item at a path.
+fn referring(to: &str) -> String {
+    let points = |name: &str, time: u8, numbers: &str| {
+        format!(
+            "<Grid Name=\"{name}\"><Time Value=\"{time}\"/><Geometry GeometryType=\"XYZ\"><DataItem Name=\"p\" \
+             Dimensions=\"2 3\">{numbers}</DataItem></Geometry>"
+        )
+    };
+    format!(
+        "<Xdmf><Domain><DataItem Name=\"own/one\" Dimensions=\"2 3\">0 0 1 0 0 2</DataItem><DataItem Name=\"loop\" \
+         Reference=\"/Xdmf/Domain/DataItem[2]\"/><Grid GridType=\"Collection\" CollectionType=\"Temporal\">{}</Grid>{}\
+         <Attribute Name=\"velocity\"><DataItem Dimensions=\"2 3\" Reference=\"XML\"> {to} </DataItem></Attribute></Grid>\
+         </Grid></Domain></Xdmf>",
+        points("g0", 0, "1 2 3 4 5 6"),
+        points("g1", 1, "7 8 9 10 11 12")
+    )
+}
+
+#[test]
+fn references_of_xdmf_follow_their_path() {
+    let folder = Folder::new("xdmf-references");
+    let second = |to: &str| {
+        let file = folder.put("a.xmf", referring(to));
+        let step = steps(&file).unwrap()[1];
+        read_step(&file, step, &[]).map(|particles| particles.velocities.unwrap()[0])
+    };
+    for (to, expected) in [
+        ("/Xdmf/Domain/Grid/Grid[2]/Geometry/DataItem[@Name='p']", [7.0, 8.0, 9.0]),
+        ("/Xdmf/Domain/Grid/Grid[1]/Geometry/DataItem[@Name='p']", [1.0, 2.0, 3.0]),
+        ("//Grid[@Name=\"g1\"]/Geometry/DataItem[1]", [7.0, 8.0, 9.0]),
+        ("../../Geometry/DataItem", [7.0, 8.0, 9.0]),
+        ("/Xdmf/*/DataItem[ @Name = 'own/one' ]", [0.0, 0.0, 1.0]),
+        // A path of another kind, and a name that only one item has.
+        ("xpointer(//DataItem[@Name='own/one'])", [0.0, 0.0, 1.0]),
+    ] {
+        assert_eq!(second(to).unwrap_or_else(|e| panic!("{to}: {e}")), expected, "{to}");
+    }
+    for (to, told) in [
+        ("//DataItem[@Name='p']", "2 by `//DataItem"),
+        ("xpointer(//DataItem[@Name='p'])", "2 by `xpointer"),
+        ("/Xdmf/Domain/Grid/Grid[3]/Geometry/DataItem", "0 by `/Xdmf"),
+        ("/Xdmf/Domain/DataItem[0]", "0 by `/Xdmf"),
+        ("/Xdmf/Domain/DataItem[@Name='loop']", "ever more references"),
+    ] {
+        let error = second(to).unwrap_err().to_string();
+        assert!(error.contains(told), "{to}: {error}");
+    }
+}
+
+#[test]
+fn joined_grids_of_xdmf_are_told() {
+    let folder = Folder::new("xdmf-joined");
+    let grid = |name: &str, x: u8| {
+        format!(
+            "<Grid Name=\"{name}\" GridType=\"Uniform\"><Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"2 3\">\
+             {x} 0 0 {x} 1 0</DataItem></Geometry></Grid>"
+        )
+    };
+    let both = grid("fluid", 1) + &grid("wall", 2);
+    let particles =
+        read(&folder.put("a.xmf", format!("<Xdmf><Domain>{both}</Domain></Xdmf>"))).unwrap();
+    assert_eq!(particles.positions.len(), 4);
+    assert_eq!(particles.warnings.len(), 1, "{:?}", particles.warnings);
+    assert!(particles.warnings[0].starts_with("2 grids are joined: fluid, wall;"));
+    // The parts of a spatial collection belong together.
+    for kind in ["", "CollectionType=\"Spatial\""] {
+        let text = format!(
+            "<Xdmf><Domain><Grid GridType=\"Collection\" {kind}>{both}</Grid></Domain></Xdmf>"
+        );
+        let particles = read(&folder.put("b.xmf", text)).unwrap();
+        assert_eq!((particles.positions.len(), particles.warnings), (4, vec![]), "{kind}");
+    }
+}
+
+/// The times of a collection, as a list or by first, distance and count.
+#[test]
+fn times_of_an_xdmf_collection() {
+    let folder = Folder::new("xdmf-times");
+    let grid = |time: &str| {
+        format!(
+            "<Grid>{time}<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"1 3\">1 2 3</DataItem></Geometry></Grid>"
+        )
+    };
+    for (kind, numbers) in [("List", "0.5 0.75"), ("HyperSlab", "0.5 0.25 2")] {
+        for (own, second) in [("", 0.75), ("<Time Value=\"8\"/>", 8.0)] {
+            let text = format!(
+                "<Xdmf><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\"><Time TimeType=\"{kind}\">\
+                 <DataItem Format=\"XML\" Dimensions=\"2\">{numbers}</DataItem></Time>{}{}</Grid></Domain></Xdmf>",
+                grid(""),
+                grid(own)
+            );
+            let all = steps(&folder.put("a.xmf", text)).unwrap();
+            let times: Vec<_> = all.iter().map(|step| step.time).collect();
+            assert_eq!(times, [Some(0.5), Some(second)], "{kind}");
+        }
     }
 }
 

@@ -159,6 +159,64 @@ fn frames_of_xyz_one_after_the_other() {
     read_step(&cut, found[2], &[]).unwrap_err();
 }
 
+/// A time in a comment is named; flags that are called `T` are none.
+#[test]
+fn times_in_comments_of_xyz() {
+    let folder = Folder::new("xyz-times");
+    let frame = |comment: &str| format!("2\n{comment}\nH 0 0 0\nH 1 0 0\n");
+    let head = "Lattice=\"1 0 0 0 1 0 0 0 1\" pbc=\"T T T\" Properties=species:S:1:pos:R:3";
+    let text: String = (0..3).map(|i| frame(&format!("{head} Time={}", 0.25 * i as f32))).collect();
+    let found = steps(&folder.put("all.xyz", text)).unwrap();
+    assert_eq!(found.iter().map(|step| step.time).collect::<Vec<_>>(), TIMES);
+    let timed = format!("{head} Time=0.5");
+    for (comment, expected) in [
+        (timed.as_str(), Some(0.5)),
+        ("pbc=\"T T T\" time = 0.5", Some(0.5)),
+        ("t=0.5, step 7", Some(0.5)),
+        ("step: 7 Time: 0.5 s", Some(0.5)),
+        ("Time=\"0.5\"", Some(0.5)),
+        ("time 0.5 s", Some(0.5)),
+        ("pbc=\"T 0.5 T\"", None),
+        ("T 0.5 F", None),
+        ("name=\"at time=3\"", None),
+        ("timestep=3", None),
+    ] {
+        let found = read(&folder.put("one.xyz", frame(comment))).unwrap();
+        assert_eq!((found.time, found.positions.len()), (expected, 2), "{comment}");
+    }
+}
+
+/// The steps of a text say where they are, so that no other frame is read for one of them.
+#[test]
+fn frames_of_text_are_read_at_their_places() {
+    let folder = Folder::new("places");
+    let all = |of: &dyn Fn(usize) -> String| -> String { (0..3).map(of).collect() };
+    let rows = |i: usize| format!("{i} 0 0\n{i} 1 0\n");
+    let dump = |i: usize| {
+        let rows = rows(i);
+        format!("ITEM: TIMESTEP\n{i}\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS x y z\n{rows}")
+    };
+    let zone = |i: usize| format!("ZONE T=\"t = {i}\", I=2, F=POINT\n{}", rows(i));
+    for (name, text, from, to) in [
+        ("a.xyz", all(&|i| format!("2\nTime={i}\n{}", rows(i))), "2\n", "3\n"),
+        ("a.dump", all(&dump), "ATOMS\n2\n", "ATOMS\n9\n"),
+        ("a.dat", format!("VARIABLES = x y z\n{}", all(&zone)), "POINT", "BLOCK"),
+    ] {
+        let path = folder.put(name, &text);
+        let found = steps(&path).unwrap();
+        assert_eq!(found.len(), 3, "{name}");
+        // The first frame is damaged.
+        folder.put(name, text.replacen(from, to, 1));
+        let read = read_step(&path, found[1], &[]).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(read.positions, [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]], "{name}");
+        assert_eq!(read.time, found[1].time, "{name}");
+        // In a file of another length, the frame is searched for.
+        folder.put(name, format!("\n{text}"));
+        let read = read_step(&path, found[2], &[]).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(read.positions, [[2.0, 0.0, 0.0], [2.0, 1.0, 0.0]], "{name}");
+    }
+}
+
 #[test]
 fn dumps_of_lammps_one_after_the_other() {
     let folder = Folder::new("dump-steps");
@@ -190,8 +248,10 @@ fn zones_of_tecplot() {
     let file = |record: &dyn Fn(usize) -> String| -> String {
         (0..3).fold(head.to_string(), |text, i| text + &frame(&record(i), i))
     };
-    let text =
-        file(&|i| format!("T=\"fluid\", I=9\n STRANDID=1, SOLUTIONTIME = {}", 0.25 * i as f32));
+    let text = file(&|i| {
+        let count = samples::COUNT - i;
+        format!("T=\"fluid\", I={count}\n STRANDID=1, SOLUTIONTIME = {}", 0.25 * i as f32)
+    });
     check(&folder.put("a.dat", &text), &TIMES);
     check(&folder.put("a.tec.gz", gzip(text.as_bytes())), &TIMES);
     check(
@@ -372,6 +432,40 @@ fn json_of_frames() {
         assert!(steps(&path).unwrap().is_empty(), "{}", std::fs::read_to_string(&path).unwrap());
         assert_eq!(read(&path).unwrap().positions, cloud(0).positions);
     }
+}
+
+/// Of a time and a step number, the time counts.
+#[test]
+fn times_of_json_beside_step_numbers() {
+    let folder = Folder::new("json-times");
+    let points = |i: usize| format!("[[{i}, 0, 0], [0, 1, 2], [1, 0, 2]]");
+    let all = |of: &dyn Fn(usize) -> String| (0..3).map(of).collect::<Vec<_>>().join(", ");
+    let frame = |i: usize| {
+        let (step, time) = (100 * i, 0.25 * i as f32);
+        format!("{{\"frame\": {step}, \"time\": {time}, \"positions\": {}}}", points(i))
+    };
+    let stacked = format!(
+        "{{\"frame\": [0, 100, 200], \"time\": [0, 0.25, 0.5], \"positions\": [{}]}}",
+        all(&points)
+    );
+    let lists = |i: usize| {
+        let p = format!("{{\"x\": [{i}, 0, 1], \"y\": [0, 1, 0], \"z\": [0, 2, 2]}}");
+        format!("{{\"step\": {i}, \"t\": {}, \"position\": {p}}}", 0.25 * i as f32)
+    };
+    for (i, text) in
+        [format!("[{}]", all(&frame)), stacked, format!("[{}]", all(&lists))].iter().enumerate()
+    {
+        let path = folder.put(&format!("{i}.json"), text);
+        let all = steps(&path).unwrap();
+        assert_eq!(all.iter().map(|step| step.time).collect::<Vec<_>>(), TIMES, "{text}");
+        for (k, step) in all.into_iter().enumerate() {
+            let p = read_step(&path, step, &[]).unwrap();
+            let positions = [[k as f32, 0.0, 0.0], [0.0, 1.0, 2.0], [1.0, 0.0, 2.0]];
+            assert_eq!((p.positions, p.time), (positions.to_vec(), TIMES[k]), "{text}");
+        }
+    }
+    let path = folder.put("one.json", "{\"step\": 400, \"time\": 0.5, \"positions\": [[0, 0, 0]]}");
+    assert_eq!(read(&path).unwrap().time, Some(0.5));
 }
 
 /// Each frame of a list is read on its own; the contents of the other frames are not parsed.

@@ -208,14 +208,22 @@ impl Data {
             // `i64::MAX` stands for all larger values, see `Data::Int`.
             Self::Int(v) => v.get(i).filter(|x| (0..i64::MAX).contains(*x)).map(|x| *x as u32),
             _ => {
-                // Doubles hold integers exactly up to 2^53.
                 let x = self.f64(i)?;
-                (x.fract() == 0.0 && (0.0..9.0e15).contains(&x)).then_some(x as i64 as u32)
+                let exact = x.fract() == 0.0 && (0.0..self.limit()).contains(&x);
+                exact.then_some(x as i64 as u32)
             }
         };
         let mut values = Vec::with_capacity(self.len());
         values.extend((0..self.len()).map_while(id));
         if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
+    }
+
+    /// The number from which on floats do not tell all integers apart: 2^24, and of doubles about 2^53.
+    pub(super) fn limit(&self) -> f64 {
+        match self {
+            Self::F32(_) => 16_777_216.0,
+            Self::F64(_) | Self::Int(_) => 9.0e15,
+        }
     }
 
     /// Returns all values as `u32`, or as the error the index of the first value that is not an integer in the
@@ -505,6 +513,14 @@ impl Vector {
         }
     }
 
+    /// For each axis, whether its component is missing.
+    fn missing(self) -> [bool; 3] {
+        match self {
+            Self::Whole(_, components) => [false, false, components < 3],
+            Self::Split(columns) => columns.map(|column| column.is_none()),
+        }
+    }
+
     pub(super) fn columns(self) -> impl Iterator<Item = usize> {
         let columns = match self {
             Self::Whole(column, _) => [Some(column), None, None],
@@ -520,7 +536,9 @@ pub(super) struct Roles {
     pub(super) positions: Vector,
     pub(super) velocities: Option<Vector>,
     pub(super) densities: Option<usize>,
+    /// The time that a particle has left; with `ages`, the time that it may live in all.
     pub(super) lifetimes: Option<usize>,
+    pub(super) ages: Option<usize>,
     pub(super) ids: Option<usize>,
     pub(super) kinds: Option<usize>,
     /// Marks copies of particles that belong to another piece.
@@ -529,6 +547,8 @@ pub(super) struct Roles {
     pub(super) steps: Option<usize>,
     /// Indices of columns that the caller requested by name.
     pub(super) extras: Vec<usize>,
+    /// Warnings about the choice.
+    told: Vec<String>,
 }
 
 /// Searches the columns of a file.
@@ -566,10 +586,11 @@ impl<'a> Search<'a> {
     }
 
     /// Finds a vector: one column of three components, else three scalar columns, else one column of two
-    /// components, else two scalar columns.
+    /// components, else two scalar columns. A column with a name of [`names::VAGUE`] comes behind three scalars.
     fn vector(&self, names: Names) -> Option<Vector> {
-        let whole = |components| {
-            let column = names.iter().find_map(|name| self.one(name, components))?;
+        let whole = |components: usize, vague: bool| {
+            let mut some = names.iter().filter(|name| names::VAGUE.contains(*name) == vague);
+            let column = some.find_map(|name| self.one(name, components))?;
             Some(Vector::Whole(column, components))
         };
         let one = |name: &String| self.one(name, 1);
@@ -580,7 +601,68 @@ impl<'a> Search<'a> {
             let found = split.find(|columns| columns.iter().flatten().count() > 1);
             found.map(Vector::Split)
         };
-        whole(3).or_else(of_three).or_else(|| whole(2)).or_else(of_two)
+        whole(3, false)
+            .or_else(of_three)
+            .or_else(|| whole(3, true))
+            .or_else(|| whole(2, false))
+            .or_else(|| whole(2, true))
+            .or_else(of_two)
+    }
+
+    /// Finds the velocities. Two components suit positions in the same plane. Beside other positions, two named ones
+    /// are told, and two of the bare `u v w` are no velocities but any two scalars, such as texture coordinates.
+    fn velocities(&self, positions: Vector, told: &mut Vec<String>) -> Option<Vector> {
+        let found = self.vector(names::VELOCITY)?;
+        if !found.is_flat() || found.missing() == positions.missing() {
+            return Some(found);
+        }
+        let listed: Vec<_> = found.columns().map(|i| format!("`{}`", self.name(i))).collect();
+        let listed = listed.join(" and ");
+        let is_bare =
+            |i: usize| self.plain.get(i).is_some_and(|plain| names::BARE.contains(&plain.as_str()));
+        if matches!(found, Vector::Split(_)) && found.columns().all(is_bare) {
+            told.push(format!(
+                "{listed} are not taken as velocities, because the positions have other axes; if they are velocities, \
+                 call them vx, vy, vz"
+            ));
+            return None;
+        }
+        told.push(format!("velocities have two components ({listed}): the third is taken as 0"));
+        Some(found)
+    }
+
+    /// Finds the lifetimes, and the ages to be subtracted from them. `ages` are those of the file.
+    fn lifetimes(
+        &self,
+        ages: Option<usize>,
+        told: &mut Vec<String>,
+    ) -> (Option<usize>, Option<usize>) {
+        let (left, life) = (self.scalar(names::LIFETIME), self.scalar(names::LIFE));
+        match (left, life, ages) {
+            (_, Some(life), Some(age)) => (Some(life), Some(age)),
+            (Some(left), _, Some(age)) => {
+                let (left_name, age_name) = (self.name(left), self.name(age));
+                told.push(format!(
+                    "the time left of a particle is taken as `{left_name}` less `{age_name}`; if `{left_name}` is \
+                     already the time left, rename `{age_name}`"
+                ));
+                (Some(left), Some(age))
+            }
+            (Some(left), _, None) => (Some(left), None),
+            (None, Some(life), None) => {
+                told.push(format!(
+                    "attribute `{}` is not used: it is the time that a particle may live in all, and without an \
+                     attribute `age` the time left is unknown; call it `lifetime` if it is the time left",
+                    self.name(life)
+                ));
+                (None, None)
+            }
+            (None, None, _) => (None, None),
+        }
+    }
+
+    fn name(&self, column: usize) -> &'a str {
+        self.shapes.get(column).map_or("", |shape| shape.name)
     }
 }
 
@@ -638,19 +720,26 @@ impl Roles {
                 Some(shape.values / (shape.components.max(1) as u64))
             })
         };
-        let steps = search.scalar(names::STEP);
+        let fits = |column: &usize| values(*column) == of_one(positions);
+        let mut steps = names::STEP.iter().filter_map(|name| search.one(name, 1));
+        let mut told = Vec::new();
+        let ages = search.scalar(names::AGE).filter(fits);
+        let (lifetimes, ages) = search.lifetimes(ages, &mut told);
+        let velocities = search.velocities(positions, &mut told);
         let mut extras = search.asked(asked);
-        extras.retain(|extra| values(*extra) == of_one(positions));
+        extras.retain(fits);
         Ok(Self {
             ghosts: search.scalar(names::GHOST),
-            steps: steps.filter(|steps| values(*steps) == of_one(positions)),
+            steps: steps.find(fits),
             positions,
-            velocities: search.vector(names::VELOCITY),
+            velocities,
             densities: search.scalar(names::DENSITY),
-            lifetimes: search.scalar(names::LIFETIME),
+            lifetimes,
+            ages,
             ids: search.scalar(names::ID),
             kinds: search.scalar(names::KIND),
             extras,
+            told,
         })
     }
 
@@ -660,6 +749,7 @@ impl Roles {
             .is_flat()
             .then(|| "positions have two components: the third is taken as 0".to_string())
             .into_iter()
+            .chain(self.told.iter().cloned())
     }
 
     /// Number of particles, from the positions and checked against the other columns.
@@ -700,18 +790,21 @@ impl Roles {
         let vectors =
             [(Meaning::Position, Some(self.positions)), (Meaning::Velocity, self.velocities)];
         let scalars = [
-            (Meaning::Density, self.densities),
-            (Meaning::Lifetime, self.lifetimes),
-            (Meaning::Id, self.ids),
-            (Meaning::Kind, self.kinds),
-            (Meaning::Time, self.steps),
-            (Meaning::Ghost, self.ghosts),
+            (Meaning::Density, self.densities, None),
+            (Meaning::Lifetime, self.lifetimes, self.ages),
+            (Meaning::Id, self.ids, None),
+            (Meaning::Kind, self.kinds, None),
+            (Meaning::Time, self.steps, None),
+            (Meaning::Ghost, self.ghosts, None),
         ];
         let vectors = vectors.into_iter().filter_map(|(meaning, vector)| {
             let columns: Vec<_> = vector?.columns().collect();
             Some((meaning, columns))
         });
-        let scalars = scalars.into_iter().filter_map(|(meaning, i)| Some((meaning, vec![i?])));
+        let scalars = scalars.into_iter().filter_map(|(meaning, column, more)| {
+            let columns: Vec<_> = std::iter::once(column?).chain(more).collect();
+            Some((meaning, columns))
+        });
         let name = |i: usize| shapes.get(i).map(|shape| shape.name.to_string());
         let all = vectors.chain(scalars);
         let all =
@@ -732,8 +825,15 @@ impl Roles {
     pub(super) fn used(&self) -> impl Iterator<Item = usize> {
         let vectors = [Some(self.positions), self.velocities].into_iter().flatten();
         let vectors = vectors.flat_map(Vector::columns);
-        let scalars =
-            [self.densities, self.lifetimes, self.ids, self.kinds, self.ghosts, self.steps];
+        let scalars = [
+            self.densities,
+            self.lifetimes,
+            self.ages,
+            self.ids,
+            self.kinds,
+            self.ghosts,
+            self.steps,
+        ];
         vectors.chain(scalars.into_iter().flatten()).chain(self.extras.iter().copied())
     }
 }

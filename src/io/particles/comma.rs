@@ -129,7 +129,19 @@ struct Records<'a> {
 }
 
 impl Records<'_> {
+    /// Reads the next line that is not blank; false at the end.
     fn next_record(&mut self) -> Result<bool, ReadError> {
+        loop {
+            let read = self.read_record()?;
+            let blank = self.record.len() == 1 && self.record.iter().all(<[u8]>::is_empty);
+            // In a table of one column, such a line is a missing value.
+            if !read || !blank || self.names.len() == 1 {
+                return Ok(read);
+            }
+        }
+    }
+
+    fn read_record(&mut self) -> Result<bool, ReadError> {
         let lines = self.lines;
         self.reader.read_byte_record(&mut self.record).map_err(|e| {
             let line = e.position().map_or(Place::Unknown, |p| Place::Line(lines + p.line()));

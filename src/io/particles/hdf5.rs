@@ -13,7 +13,10 @@
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
 //! - Positions of shape (frames, particles, 3) in any group, or components of shape (frames, particles). Other arrays
 //!   of the group with the same number of frames are attributes of these particles.
+//! - openPMD: `position/x`, `position/y`, `position/z` and other groups of components in the group of the particles.
 //! - Other files: the group with an array of positions; the particles of several such groups are joined.
+//!
+//! Values that netCDF packed (attributes `scale_factor` and `add_offset`) are unpacked.
 //!
 //! A unit in attribute `units` or `unit` of an array is added to its name: `position [mm]`.
 //!
@@ -34,7 +37,8 @@ use hdf5_reader::error::Error;
 use hdf5_reader::group::Group;
 use hdf5_reader::storage::{BytesStorage, FileStorage, Storage};
 use hdf5_reader::{
-    ByteOrder, Dataset, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem,
+    Attribute, ByteOrder, Dataset, Datatype, H5Type, Hdf5File, OpenOptions, SliceInfo,
+    SliceInfoElem,
 };
 
 use super::asked::Asked;
@@ -372,8 +376,10 @@ fn numbers(
         Rows::Some(some) => some.end.min(first).saturating_sub(some.start),
         Rows::Frame(_) => 1,
     };
-    // Integers are held in 8 bytes, half precision in 4.
-    let size = if matches!(Data::for_type(ty), Data::Int(_)) { 8 } else { size.max(4) };
+    let packed = Packed::of(dataset)?;
+    // Integers and unpacked values are held in 8 bytes, half precision in 4.
+    let wide = packed.is_some() || matches!(Data::for_type(ty), Data::Int(_));
+    let size = if wide { 8 } else { size.max(4) };
     // Empty rows take time as well, so they count as one byte.
     let bytes = rest.iter().fold(some.saturating_mul(size), |n, d| n.saturating_mul((*d).max(1)));
     if bytes > limit as u64 {
@@ -410,7 +416,54 @@ fn numbers(
             _ => {}
         }
     }
-    Ok(data)
+    Ok(match packed {
+        Some(packed) => packed.unpacked(data),
+        None => data,
+    })
+}
+
+/// How netCDF packed the values of a dataset.
+struct Packed {
+    scale: f64,
+    offset: f64,
+    /// The stored number of a missing value.
+    missing: Option<f64>,
+}
+
+impl Packed {
+    /// `None` if the values are stored as they are.
+    fn of(dataset: &Dataset) -> Result<Option<Self>, ReadError> {
+        let of = |name: &str| {
+            let Ok(attribute) = dataset.attribute(name) else { return Ok(None) };
+            let bad = || ReadError::Unsupported {
+                what: format!("dataset `{}`, whose `{name}` is not a number,", dataset.name()),
+                advice: "write that attribute as a number, or the values unpacked, without it",
+            };
+            value(&attribute).map(Some).ok_or_else(bad)
+        };
+        let (scale, offset) = (of("scale_factor")?, of("add_offset")?);
+        if scale.is_none() && offset.is_none() {
+            return Ok(None);
+        }
+        let missing = dataset.attribute("_FillValue").ok();
+        Ok(Some(Self {
+            scale: scale.unwrap_or(1.0),
+            offset: offset.unwrap_or(0.0),
+            missing: missing.as_ref().and_then(value),
+        }))
+    }
+
+    fn unpacked(&self, data: Data) -> Data {
+        let one = |x: f64| match self.missing {
+            Some(missing) if missing == x => f64::NAN,
+            _ => x * self.scale + self.offset,
+        };
+        Data::F64(match data {
+            Data::F32(v) => v.into_iter().map(|x| one(f64::from(x))).collect(),
+            Data::F64(v) => v.into_iter().map(one).collect(),
+            Data::Int(v) => v.into_iter().map(|x| one(x as f64)).collect(),
+        })
+    }
 }
 
 /// Memory that a process may still allocate, in bytes; `None` if the system does not report it.
@@ -454,10 +507,13 @@ fn list(group: &Group, name: &str, limit: usize) -> Result<Vec<u64>, ReadError> 
 
 /// The first of these attributes that is a number.
 fn number(group: &Group, names: &[&str]) -> Option<f64> {
-    let all = names.iter().filter_map(|name| group.attribute(name).ok());
-    all.into_iter().find_map(|attribute| {
-        attribute.read_as_f64().ok().or_else(|| attribute.read_1d::<f64>().ok()?.first().copied())
-    })
+    let mut all = names.iter().filter_map(|name| group.attribute(name).ok());
+    all.find_map(|attribute| value(&attribute))
+}
+
+/// The number in an attribute.
+fn value(attribute: &Attribute) -> Option<f64> {
+    attribute.read_as_f64().ok().or_else(|| attribute.read_1d::<f64>().ok()?.first().copied())
 }
 
 impl Array {
@@ -607,7 +663,7 @@ fn leaf(path: &str) -> String {
 }
 
 /// The first of some names.
-fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(super) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let mut names = names.into_iter();
     let first: Vec<_> = names.by_ref().take(24).collect();
     let more = match names.count() {

@@ -16,11 +16,17 @@ const LONGEST: u64 = 64;
 /// Number of bytes scanned at a time.
 const CHUNK: usize = 1 << 14;
 
+/// The line breaks of the text are counted in blocks of this many bytes.
+const BLOCK: usize = 1 << 10;
+
 /// The XML of a file, up to its appended data or its end.
 pub(super) struct Head {
     /// The XML of the file, with each long text (data) replaced by one character: a space if the text is only white
     /// space, otherwise a digit.
     text: String,
+    /// Number of line breaks before each block of the text, so that the line of one of many elements is found without
+    /// a count from the beginning.
+    breaks: Vec<u64>,
     cuts: Vec<Cut>,
     /// Length of the byte order mark before it.
     mark: u64,
@@ -86,7 +92,18 @@ impl Head {
             scan.out.extend(b"</VTKFile>");
         }
         let text = String::from_utf8(scan.out).unwrap_or_default();
-        Ok(Self { text, cuts: scan.cuts, mark, appended })
+        Ok(Self::of(text, scan.cuts, mark, appended))
+    }
+
+    fn of(text: String, cuts: Vec<Cut>, mark: u64, appended: Option<u64>) -> Self {
+        let blocks = text.as_bytes().chunks(BLOCK);
+        let before = blocks.scan(0, |before, block| {
+            let breaks = line_breaks(block);
+            let at = *before;
+            *before += breaks;
+            Some(at)
+        });
+        Self { breaks: before.collect(), text, cuts, mark, appended }
     }
 
     pub(super) fn parse(&self) -> Result<Document<'_>, ReadError> {
@@ -125,9 +142,14 @@ impl Head {
     }
 
     fn line(&self, at: usize) -> u64 {
-        let head = self.text.as_bytes().get(..at).unwrap_or_default();
+        let block = at / BLOCK;
         let missing = before(&self.cuts, at).map_or(0, |cut| cut.lines);
-        1 + missing + head.iter().filter(|b| **b == b'\n').count() as u64
+        // The end of the text may be the end of its last block.
+        let Some(known) = self.breaks.get(block) else {
+            return 1 + missing + line_breaks(self.text.as_bytes());
+        };
+        let rest = self.text.as_bytes().get(block * BLOCK..at).unwrap_or_default();
+        1 + missing + known + line_breaks(rest)
     }
 
     /// Column of the character at `at`, counted in characters from 1.
@@ -162,6 +184,10 @@ impl Head {
             Some(_) => Words::Mixed,
         }
     }
+}
+
+fn line_breaks(text: &[u8]) -> u64 {
+    text.iter().filter(|b| **b == b'\n').count() as u64
 }
 
 /// The last cut before an index.
@@ -340,5 +366,22 @@ impl Scan {
             (State::Until(end), b'>') if self.out.ends_with(end) => State::Text,
             (state, _) => state,
         };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+
+    use super::*;
+
+    /// The line of an element takes as long to find at the end of a file as at its beginning.
+    #[test]
+    fn lines_are_counted_from_their_block() {
+        let text = "<Piece>\n\n".repeat(1 << 20);
+        let head = Head::of(text, Vec::new(), 0, None);
+        for at in [0, 8, 9, 10, 1023, 1024, 1025, 2047, 2048, 9 << 20] {
+            let before = head.text.as_bytes().iter().take(at).filter(|b| **b == b'\n').count();
+            assert_eq!(head.line(at), 1 + before as u64, "{at}");
+        }
     }
 }

@@ -2,7 +2,8 @@
 //! "id": 7}, ...]`, or an object of arrays by name.
 //!
 //! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`. In a
-//! flat array the components of vectors follow one another. Positions may be keyed by id: `{"7": [x, y, z], ...}`. An
+//! flat array the components of vectors follow one another. Vectors may be objects of lists: `{"position": {"x": [0],
+//! "y": [0], "z": [0]}}`. Positions may be keyed by id: `{"7": [x, y, z], ...}`. An
 //! object with a single array of particles, `{"particles": [...]}`, is read as that array. A file with one JSON value
 //! per line is read as an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments, and commas
 //! after the last value, are ignored. Houdini's JSON geometry begins with `"fileversion"` and is refused.
@@ -10,6 +11,8 @@
 //! A file with several frames is a list of such arrays or objects, an object that holds them by name
 //! (`{"frame_1": ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see
 //! `json_frames`.
+
+use std::collections::HashMap;
 
 use serde_json::{Map, Value};
 
@@ -291,45 +294,103 @@ fn several_frames(rows: &[Value], what: &str) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Reads particles that are objects.
-fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
-    let mut columns: Vec<(String, Vec<Value>)> = Vec::new();
-    if let Some(Value::Object(first)) = rows.first() {
-        if let Some((name, _)) = first.iter().find(|(_, value)| is_list_of_particles(value)) {
-            return Err(ReadError::Unsupported {
-                what: format!("a file of {} frames (a list `{name}` in each)", rows.len()),
-                advice: "write one file per frame, with the frame's number in its name",
-            });
-        }
-        for (name, value) in first {
-            let components = components(value).map_or(1, |vector| vector.len());
-            // Numbers may be in quotes.
-            let number = |value: &Value| {
-                let text = value.as_str().map(|text| text.trim().parse::<f64>());
-                text.is_none_or(|number| number.is_ok())
-            };
-            let text =
-                value.is_string() && !rows.iter().filter_map(|row| row.get(name)).all(number);
-            let ty = if text { AttributeType::Text } else { AttributeType::Number };
-            if table.list(name, components, ty) && !text {
-                columns.push((name.clone(), Vec::new()));
-            }
-        }
+/// An attribute of particles that are objects.
+struct Field<'a> {
+    name: &'a str,
+    /// Its first value that is not `null`.
+    first: &'a Value,
+    /// Number of particles that have it.
+    count: usize,
+    /// A value that is no number.
+    word: Option<&'a Value>,
+}
+
+impl Field<'_> {
+    /// Whether the attribute is text: an error in positions, velocities and densities, unless it begins with text.
+    fn is_text(&self) -> bool {
+        self.word.is_some() && (self.first.is_string() || names::may_be_text(self.name))
     }
-    for (i, row) in rows.into_iter().enumerate() {
-        let Value::Object(mut row) = row else {
+
+    /// Whether no particle may lack it.
+    fn is_needed(&self) -> bool {
+        let long = names::plain(self.name).len() > 1;
+        (names::is_position(self.name) && long) || names::is_component(self.name)
+    }
+}
+
+/// The attributes of particles that are objects, in the order in which they are found.
+fn fields(rows: &[Value]) -> Result<Vec<Field<'_>>, ReadError> {
+    let mut fields: Vec<Field<'_>> = Vec::new();
+    let mut indices: HashMap<&str, usize> = HashMap::new();
+    for row in rows {
+        let Value::Object(row) = row else {
             return Err(ReadError::json(
                 "an object for each particle, like the first",
                 show(row.to_string().as_bytes()),
             ));
         };
+        for (name, value) in row {
+            let index = *indices.entry(name.as_str()).or_insert(fields.len());
+            if index == fields.len() {
+                fields.push(Field { name, first: value, count: 0, word: None });
+            }
+            let Some(field) = fields.get_mut(index) else { continue };
+            field.count += 1;
+            if field.first.is_null() {
+                field.first = value;
+            }
+            field.word = field.word.or_else(|| word(value));
+        }
+    }
+    Ok(fields)
+}
+
+/// Reads particles that are objects.
+fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+    if let Some(Value::Object(first)) = rows.first()
+        && let Some((name, _)) = first.iter().find(|(_, value)| is_list_of_particles(value))
+    {
+        return Err(ReadError::Unsupported {
+            what: format!("a file of {} frames (a list `{name}` in each)", rows.len()),
+            advice: "write one file per frame, with the frame's number in its name",
+        });
+    }
+    let mut columns: Vec<(String, Vec<Value>)> = Vec::new();
+    for field in fields(&rows)? {
+        let components = components(field.first).map_or(1, |vector| vector.len());
+        let text = field.is_text();
+        let ty = if text { AttributeType::Text } else { AttributeType::Number };
+        let wanted = table.list(field.name, components, ty);
+        if text {
+            table.warnings.extend(unused_words(field.name, field.word));
+            continue;
+        }
+        if !wanted {
+            continue;
+        }
+        if field.count < rows.len() && field.is_needed() {
+            return Err(ReadError::Length {
+                attribute: field.name.into(),
+                expected: rows.len() as u64,
+                found: field.count as u64,
+            });
+        }
+        // Missing values become NaN. Many names of which each is in few particles would take a lot of memory.
+        if field.count.saturating_mul(2) < rows.len() {
+            table.warnings.push(format!(
+                "attribute `{}` is dropped: only {} of {} particles have it",
+                field.name,
+                field.count,
+                rows.len()
+            ));
+            continue;
+        }
+        columns.push((field.name.into(), Vec::new()));
+    }
+    for row in rows {
+        let Value::Object(mut row) = row else { continue };
         for (name, values) in &mut columns {
-            let value = row.remove(name).ok_or_else(|| ReadError::Length {
-                attribute: name.clone(),
-                expected: i as u64 + 1,
-                found: i as u64,
-            })?;
-            values.push(value);
+            values.push(row.remove(name.as_str()).unwrap_or_default());
         }
     }
     for (name, values) in columns {
@@ -352,6 +413,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
             advice: "name it .series, with the files beside it",
         });
     }
+    interleave(&mut map)?;
     let rows = of_pandas(&mut map, &table.asked).or_else(|| by_id(&mut map));
     if let Some(rows) = rows {
         return list(rows, table);
@@ -393,8 +455,16 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
         }
         return Ok(());
     }
+    let mut flat = Vec::new();
     for (name, value) in map {
         let Value::Array(rows) = value else { continue };
+        let found = if names::may_be_text(&name) { rows.iter().find_map(word) } else { None };
+        if found.is_some() {
+            let components = rows.iter().find_map(components).map_or(1, |first| first.len());
+            table.list(&name, components, AttributeType::Text);
+            table.warnings.extend(unused_words(&name, found));
+            continue;
+        }
         if !table.asked.wants(&name) {
             let components = rows.first().and_then(Value::as_array).map_or(1, Vec::len);
             table.list(&name, components, AttributeType::Number);
@@ -406,12 +476,78 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
         // into vectors.
         let alone = names::plain(&name) != "x" && names::plain(&name).len() > 1;
         if components == 1 && names::is_vector(&name) && alone {
+            if !names::is_position(&name) {
+                flat.push((name, data));
+                continue;
+            }
             (components, data) = vectors(&name, components, data)?;
         }
         table.list(&name, components, AttributeType::Number);
         table.push(&name, components, data);
     }
+    let position = |name: &str| names::is_position(name) || names::is_component(name);
+    let positions = table.columns.iter().find(|column| position(&column.name));
+    let count = positions.map(|column| column.data.len() / column.components.max(1));
+    for (name, data) in flat {
+        // A list with one number for each particle is a magnitude, such as a speed.
+        let (components, data) = match count {
+            Some(count) if count == data.len() => (1, data),
+            _ => vectors(&name, 1, data)?,
+        };
+        table.list(&name, components, AttributeType::Number);
+        table.push(&name, components, data);
+    }
     Ok(())
+}
+
+/// The lists of a vector that is an object of them.
+pub(super) fn lists(value: &Value) -> Option<Vec<&Vec<Value>>> {
+    let map = value.as_object()?;
+    let parts = components(value).filter(|parts| parts.len() == map.len())?;
+    let numbers = |list: &&Vec<Value>| {
+        list.first().is_none_or(|first| !first.is_array() && !first.is_object())
+    };
+    parts.into_iter().map(|part| part.as_array().filter(numbers)).collect()
+}
+
+/// Turns positions and velocities that are objects of lists into lists of vectors.
+fn interleave(map: &mut Map<String, Value>) -> Result<(), ReadError> {
+    for (name, value) in map.iter_mut().filter(|(name, _)| names::is_vector(name)) {
+        let Some(lists) = lists(value) else { continue };
+        let lengths: Vec<usize> = lists.iter().map(|list| list.len()).collect();
+        let count = lengths.first().copied().unwrap_or(0);
+        if lengths.iter().any(|length| *length != count) {
+            return Err(ReadError::json(
+                format!("as many numbers in x, y and z of `{name}`"),
+                format!("{lengths:?}"),
+            ));
+        }
+        let mut rows = Vec::with_capacity(count);
+        for i in 0..count {
+            let vector: Vec<Value> = lists.iter().filter_map(|list| list.get(i).cloned()).collect();
+            rows.push(Value::Array(vector));
+        }
+        *value = Value::Array(rows);
+    }
+    Ok(())
+}
+
+/// A value that is no number: text, or `true` and `false`, also inside a vector.
+fn word(value: &Value) -> Option<&Value> {
+    match value {
+        Value::String(text) => text.trim().parse::<f64>().is_err().then_some(value),
+        Value::Bool(_) => Some(value),
+        Value::Array(all) => all.iter().filter(|value| value.is_string()).find_map(word),
+        _ => None,
+    }
+}
+
+/// Warning about an attribute with a meaning whose values are words.
+fn unused_words(name: &str, word: Option<&Value>) -> Option<String> {
+    let word = word.filter(|_| names::known(&names::plain(name)))?;
+    let found = word.as_str().map_or_else(|| word.to_string(), String::from);
+    let found = show(found.as_bytes());
+    Some(format!("`{name}` is not used: not all of its values are numbers ({found})"))
 }
 
 fn shape(name: &str, expected: &str, components: usize) -> ReadError {
@@ -443,7 +579,8 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             ReadError::json(format!("numbers in `{name}`"), show(value.to_string().as_bytes()))
         }),
     };
-    let components = rows.first().and_then(components).map(|first| first.len());
+    let first = rows.iter().find(|row| !row.is_null());
+    let components = first.and_then(components).map(|first| first.len());
     // Grown as needed, because the first row may be the only long one.
     let mut values = Vec::new();
     for row in rows {
@@ -459,6 +596,10 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
                 }
             }
             (_, None) => values.push(number(row)?),
+            // A few `null` may not stand for many numbers.
+            (None, Some(components @ 0..=3)) if row.is_null() => {
+                values.extend(std::iter::repeat_n(f64::NAN, components));
+            }
             (None, Some(_)) => {
                 return Err(ReadError::json(
                     format!("arrays in `{name}`, like the first"),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use serde_json::{Map, Value};
 
-use super::json::is_list_of_particles;
+use super::json::{is_list_of_particles, lists};
 use super::names;
 
 /// How the frames of a file are stored.
@@ -34,6 +34,9 @@ fn is_frame(value: &Value) -> bool {
             let known = names::may_have_positions(&map.keys().collect::<Vec<_>>());
             // A particle has numbers and short vectors; a frame has lists of them.
             let columns = map.iter().any(|(name, value)| {
+                if names::is_position(name) && lists(value).is_some() {
+                    return true;
+                }
                 let Value::Array(list) = value else { return false };
                 let vectors = list.first().is_some_and(|first| !first.is_number());
                 names::is_component(name)
@@ -94,9 +97,13 @@ fn number(name: &str) -> Option<u64> {
     digits.get(start..)?.parse().ok()
 }
 
-/// The time of a frame.
+/// The time of a frame. Its time in seconds is preferred to its step number.
 pub(super) fn time(map: &Map<String, Value>) -> Option<f64> {
-    map.iter().find_map(|(name, value)| value.as_f64().filter(|_| names::is_time(name)))
+    let times = map.iter().filter_map(|(name, value)| {
+        let time = value.as_f64()?;
+        Some((names::time_rank(name)?, time))
+    });
+    times.min_by_key(|(rank, _)| *rank).map(|(_, time)| time)
 }
 
 /// The times of all frames; empty for one frame.
@@ -108,9 +115,11 @@ pub(super) fn times(value: &Value) -> Vec<Option<f64>> {
             all.iter().map(|name| map.get(name).and_then(of)).collect()
         }
         (Some(Frames::Stacked(count)), Value::Object(map)) => {
-            let list = map.iter().find_map(|(name, value)| {
-                value.as_array().filter(|list| names::is_time(name) && list.len() == count)
+            let lists = map.iter().filter_map(|(name, value)| {
+                let list = value.as_array().filter(|list| list.len() == count)?;
+                Some((names::time_rank(name)?, list))
             });
+            let list = lists.min_by_key(|(rank, _)| *rank).map(|(_, list)| list);
             (0..count).map(|i| list.and_then(|list| list.get(i)?.as_f64())).collect()
         }
         (Some(Frames::Behind(name)), Value::Object(map)) => {

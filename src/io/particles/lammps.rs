@@ -74,9 +74,7 @@ enum Item {
 }
 
 pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
-    let starts = asked.step().map(|step| starts(content, Some(step.index))).transpose()?;
-    let part = asked.step().zip(starts);
-    match part.map_or(Ok(None), |(step, starts)| steps::part(content, &starts, step.index))? {
+    match steps::asked_part(content, asked, starts)? {
         Some((content, _)) => open_one(&content, &asked.clone().of_step(None)),
         None => open_one(content, asked),
     }

@@ -12,7 +12,7 @@ pub enum Meaning {
     Density,
     /// Numbers that stay with a particle from frame to frame.
     Id,
-    /// Remaining lifetime of whitewater particles.
+    /// Remaining lifetime of whitewater particles; with two attributes, the whole lifetime less the age.
     Lifetime,
     /// Kind of a particle, as a number; for whitewater 0 foam, 1 spray, 2 bubble.
     Kind,

@@ -37,6 +37,7 @@ pub(super) const VELOCITY: Names = &[
     "velo",
     "linearvelocity",
     "linvel",
+    "linvelvec",
     "v",
     "vp",
     "pv",
@@ -47,6 +48,10 @@ pub(super) const VELOCITY: Names = &[
     "vitesse",
     "velocidad",
 ];
+/// Names of vectors that often mean something else, such as a momentum, a radius or a displacement.
+pub(super) const VAGUE: Names = &["p", "r", "u"];
+/// Names of components of velocities that by themselves often mean something else, such as texture coordinates.
+pub(super) const BARE: [&str; 3] = ["u", "v", "w"];
 pub(super) const DENSITY: Names =
     &["density", "densities", "rho", "rhop", "dens", "massdensity", "ρ", "crho"];
 pub(super) const ID: Names = &[
@@ -72,18 +77,30 @@ pub(super) const ID: Names = &[
     "nodenumber",
     "particle",
 ];
-pub(super) const LIFETIME: Names = &["lifetime", "life"];
+/// The time that a particle has left, or in all if its age is there too.
+pub(super) const LIFETIME: Names = &["lifetime"];
+/// The time that a particle may live in all, as in Houdini.
+pub(super) const LIFE: Names = &["life"];
+pub(super) const AGE: Names = &["age", "ages"];
 pub(super) const KIND: Names = &["type"];
 /// Names that mark copies of particles of another piece.
 pub(super) const GHOST: Names =
     &["vtkghosttype", "vtkghostlevels", "vtkghosttypeofcells", "vtkghostlevelsofcells"];
 /// Suffix that is added to the name of a ghost attribute if its values belong to cells instead of points.
 pub(super) const OF_CELLS: &str = " of cells";
-/// Names of the time or step of a particle, in files with several frames.
+/// Names of the time or step of a particle, in files with several frames. Times come first, because a step number does
+/// not tell how much time passes from frame to frame.
 pub(super) const STEP: Names = &[
-    "timestep",
     "time",
     "timevalue",
+    "simtime",
+    "simulationtime",
+    "physicaltime",
+    "currenttime",
+    "elapsedtime",
+    "zeit",
+    "tiempo",
+    "timestep",
     "step",
     "frame",
     "frameid",
@@ -101,15 +118,8 @@ pub(super) const STEP: Names = &[
     "cycle",
     "snapshot",
     "timestamp",
-    "simtime",
-    "simulationtime",
-    "physicaltime",
-    "currenttime",
     "currentstep",
-    "elapsedtime",
-    "zeit",
     "temps",
-    "tiempo",
     "tempo",
     "t",
     "ts",
@@ -230,7 +240,7 @@ fn all_triples(names: Names) -> impl Iterator<Item = [String; 3]> {
 
 /// Whether a plain name has a meaning.
 pub(super) fn known(name: &str) -> bool {
-    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND, GHOST, STEP]
+    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, LIFE, AGE, KIND, GHOST, STEP]
         .iter()
         .any(|names| names.contains(&name))
         || COMPONENTS.iter().any(|components| components.contains(name))
@@ -260,7 +270,22 @@ pub(super) fn is_component(name: &str) -> bool {
 
 /// Whether this is the name of a list of times.
 pub(super) fn is_time(name: &str) -> bool {
-    is_step(name) || ["times", "timesteps", "steps"].contains(&plain(name).as_str())
+    time_rank(name).is_some()
+}
+
+/// How well a name fits a frame's time, or a list of times: lower is better, and times come before step numbers. `None`
+/// if it is no such name.
+pub(super) fn time_rank(name: &str) -> Option<usize> {
+    let plain = plain(name);
+    let name = match plain.as_str() {
+        "times" => "time",
+        "timesteps" => "timestep",
+        "steps" => "step",
+        // A value per frame, unlike one per particle, is no temperature.
+        "t" => "tiempo",
+        name => name,
+    };
+    STEP.iter().position(|step| *step == name)
 }
 
 /// Whether some of these names denote positions, either as a vector or as two or three components.
@@ -269,16 +294,12 @@ pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     names.iter().any(whole) || have_positions(names)
 }
 
-/// Whether an attribute with this name (a kind, a time or an unknown one) may be text, because the picture does not
-/// depend on it.
+/// Whether an attribute with this name may be text: a kind, an id, a time or an age, all of which are dropped if they
+/// are no numbers, or an unknown one.
 pub(super) fn may_be_text(name: &str) -> bool {
     let plain = plain(name);
-    KIND.contains(&plain.as_str()) || STEP.contains(&plain.as_str()) || !known(&plain)
-}
-
-/// Whether an attribute with this name is a particle's time or step, whose values need not be numbers.
-pub(super) fn is_step(name: &str) -> bool {
-    STEP.contains(&plain(name).as_str())
+    [KIND, ID, STEP, AGE, LIFE].iter().any(|names| names.contains(&plain.as_str()))
+        || !known(&plain)
 }
 
 /// Whether the name of a time or step often means something else.
@@ -332,6 +353,23 @@ mod tests {
     }
 
     #[test]
+    fn times_rank_before_steps() {
+        for (time, step) in [
+            ("time", "step"),
+            ("time", "TimeStep"),
+            ("times", "steps"),
+            ("t", "frame"),
+            ("t", "timestep"),
+            ("sim_time", "iteration"),
+            ("TimeValue", "cycle"),
+        ] {
+            assert!(time_rank(time) < time_rank(step), "{time} {step}");
+            assert!(is_time(time) && is_time(step));
+        }
+        assert_eq!(time_rank("dt"), None);
+    }
+
+    #[test]
     fn what_is_wanted() {
         for name in [
             "U",
@@ -354,6 +392,8 @@ mod tests {
             "velocity w",
             "Track: Parcel Velocity[i] (m/s)",
             "c_rho",
+            "linVelVec",
+            "particle_age",
         ] {
             assert!(known(&plain(name)), "{name}");
         }
@@ -367,7 +407,7 @@ mod tests {
             "v_4",
             "v_mag",
             "",
-            "age",
+            "nage",
             "ui",
             "pw",
         ] {

@@ -154,10 +154,13 @@ pub(super) fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     let raw = cursor.take(length, WHAT)?;
     let bad = |key: &str| ReadError::malformed(format!("`{key}` in {WHAT}"), show(raw), place);
     let text = std::str::from_utf8(raw).map_err(|_| bad("descr"))?;
-    // The value of a key begins after the colon.
+    // The value of a key begins after the colon; a field of the same name has none.
     let value = |key: &str| {
-        let start = text.find(&format!("'{key}'"))? + key.len() + 2;
-        Some(text.get(start..)?.trim_start().strip_prefix(':')?.trim_start())
+        let quoted = format!("'{key}'");
+        text.match_indices(quoted.as_str()).find_map(|(at, found)| {
+            let behind = text.get(at + found.len()..)?;
+            behind.trim_start().strip_prefix(':').map(str::trim_start)
+        })
     };
     let descr = value("descr").ok_or_else(|| bad("descr"))?;
     let (members, size) = members(descr).ok_or_else(|| bad("descr"))?;
@@ -323,6 +326,7 @@ fn dtype(name: &str) -> AttributeType {
         "f2" => T::F16,
         "f4" => T::F32,
         "f8" => T::F64,
+        _ if name.starts_with(['U', 'S']) => T::Text,
         _ => T::Other,
     }
 }

@@ -135,9 +135,10 @@ impl Header {
                     fields.push(Field::new("velocity", 3, self.ty(), 3 * size)?);
                 }
                 let then = if velocities { "velocities" } else { "not read" };
+                let moves = !placed && names::VELOCITY.contains(&names::plain(name).as_str());
                 warnings.push(format!(
                     "array `{name}` has {components} columns: the first 3 are taken as {}, the others are {then}",
-                    if placed || names::plain(name) != "velocity" { "positions" } else { "velocities" }
+                    if moves { "velocities" } else { "positions" }
                 ));
             }
         }
@@ -160,8 +161,25 @@ impl Header {
         Ok((rows, rowed, warnings))
     }
 
+    /// The warning that the array is left out, if it holds no numbers and none are needed.
+    fn left_out(&self, name: &str) -> Option<String> {
+        let numbers = self.structured || self.ty().size().is_some();
+        (!numbers && names::may_be_text(name)).then(|| {
+            let what = match self.ty() {
+                AttributeType::Text => "text",
+                _ if self.has_objects() => "Python objects",
+                _ => "values of another kind",
+            };
+            format!("array `{name}` is not read: it holds {what} (dtype {})", self.descr)
+        })
+    }
+
+    fn has_objects(&self) -> bool {
+        self.descr.ends_with('O')
+    }
+
     fn unsupported(&self, name: &str) -> ReadError {
-        if self.descr.ends_with('O') {
+        if self.has_objects() {
             return ReadError::Unsupported {
                 what: format!("array `{name}` of Python objects (dtype object)"),
                 advice: "save arrays of numbers: np.savez(file, position=p, velocity=v)",
@@ -310,7 +328,7 @@ fn of_positions(cursor: &mut Cursor<'_>, asked: &Asked) -> Result<Header, ReadEr
     header.check_order(NPY)?;
     let frame = header.frames(false).and_then(|count| one(asked, count));
     let header = header.of_frame(frame, true);
-    if header.descr.ends_with('O') {
+    if header.has_objects() {
         return Err(header.unsupported(NPY));
     }
     if !header.structured && header.rowed(NPY, true)?.components < 2 {
@@ -377,6 +395,10 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
         let Some(name) = wanted_array(&mut file, &chosen, asked) else { continue };
+        if let Some((_, told)) = chosen.left_out.iter().find(|(out, _)| *out == name) {
+            table.warnings.push(told.clone());
+            continue;
+        }
         let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
         budget = budget.saturating_sub(raw.len());
         let mut cursor = Cursor::new(&raw);
@@ -417,6 +439,10 @@ pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>,
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
         let Some(name) = wanted_array(&mut file, &chosen, asked) else { continue };
+        if let Some((_, told)) = chosen.left_out.iter().find(|(out, _)| *out == name) {
+            table.warnings.push(told.clone());
+            continue;
+        }
         let packing = match file.compression() {
             zip::CompressionMethod::Stored => Packing::None,
             zip::CompressionMethod::Deflated => Packing::Deflate,
@@ -473,6 +499,8 @@ struct Chosen {
     /// Time of the only frame, from an array of one value.
     time: Option<f64>,
     warnings: Vec<String>,
+    /// Arrays of no numbers that are not read, and the warnings that say so.
+    left_out: Vec<(String, String)>,
 }
 
 impl Chosen {
@@ -492,6 +520,7 @@ fn choose<R: Read + std::io::Seek>(
     let (mut table, mut chosen) = (Table::new(asked), Chosen::default());
     let (mut all, mut able, mut headers) = (Vec::new(), Vec::new(), Vec::new());
     let mut others = Vec::new();
+    let mut best = usize::MAX;
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
         let Ok(name) = file.name().map(|name| name.into_owned()) else { continue };
@@ -503,10 +532,13 @@ fn choose<R: Read + std::io::Seek>(
         let _ = file.by_ref().take(4096).read_to_end(&mut head);
         let mut cursor = Cursor::new(&head);
         let Ok(header) = header(&mut cursor) else { continue };
-        if names::is_time(&name) && header.shape.iter().all(|extent| *extent == 1) {
+        let rank = names::time_rank(&name).filter(|rank| *rank < best);
+        if let Some(rank) = rank.filter(|_| header.shape.iter().all(|extent| *extent == 1)) {
             let values = header.columns(&mut cursor, &name, false, &mut Table::new(asked));
             let value = values.ok().and_then(|columns| columns.first()?.data.f64(0));
-            chosen.time = chosen.time.or(value.filter(|time| time.is_finite()));
+            if let Some(time) = value.filter(|time| time.is_finite()) {
+                (chosen.time, best) = (Some(time), rank);
+            }
         }
         if header.structured && !asked.wants(&name) {
             let fields = header.members.iter().map(|member| member.name.clone());
@@ -517,6 +549,9 @@ fn choose<R: Read + std::io::Seek>(
                 able.push(name.clone());
             }
             all.push(name.clone());
+        }
+        if let Some(told) = header.left_out(&name) {
+            chosen.left_out.push((name.clone(), told));
         }
         headers.push((name, header));
     }
@@ -543,6 +578,17 @@ fn choose<R: Read + std::io::Seek>(
             .warnings
             .push(format!("no array is called positions: `{name}` is taken as them{more}"));
     }
+    let objects = headers.iter().filter(|(_, header)| header.has_objects());
+    let objects: Vec<_> = objects.map(|(name, _)| format!("`{name}`")).take(4).collect();
+    if !names::may_have_positions(&all) && chosen.positions.is_none() && !objects.is_empty() {
+        return Err(ReadError::Unsupported {
+            what: format!(
+                "a zip of arrays without positions, but with Python objects (in {}; perhaps of PySPH)",
+                objects.join(", ")
+            ),
+            advice: "save arrays of numbers: np.savez(file, position=p, velocity=v); from PySPH, write HDF5",
+        });
+    }
     let frames = headers.iter().filter_map(|(name, header)| {
         let component = names::is_component(name);
         let placed = names::is_position(name) || chosen.positions.as_ref() == Some(name);
@@ -555,10 +601,13 @@ fn choose<R: Read + std::io::Seek>(
             header.check_order(name)?;
         }
     }
+    let of_frames = headers.iter().filter(|(_, header)| {
+        let numbers = !header.structured && header.ty().size().is_some();
+        numbers && chosen.frames.is_some_and(|frames| header.shape == [frames])
+    });
+    let times = of_frames.filter_map(|(name, _)| Some((names::time_rank(name)?, name)));
+    chosen.times = times.min_by_key(|(rank, _)| *rank).map(|(_, name)| name.clone());
     for (name, header) in headers {
-        if chosen.frames.is_some_and(|frames| header.shape == [frames]) && names::is_time(&name) {
-            chosen.times = Some(name.clone());
-        }
         chosen.frame(header, &name, asked).list(&mut table, &name);
     }
     Ok((table, chosen))

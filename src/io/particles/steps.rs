@@ -20,14 +20,27 @@ pub struct Step {
     pub time: Option<f64>,
     /// Position of the frame in a JSON file.
     pub(super) part: Option<json_frames::Part>,
+    /// Position of the frame in another text.
+    pub(super) text: Option<Span>,
+}
+
+/// Where a frame is in a text.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Span {
+    start: u64,
+    end: u64,
+    /// Number of lines before it.
+    lines: u64,
+    /// Length of the whole text.
+    length: u64,
 }
 
 impl Step {
     /// Names a frame by its index, from 0. A table with a column of times also needs `time`, which selects the rows.
-    /// For a JSON file, the steps that [`steps`] returns also hold the frame's position in the file; for a step made
-    /// with this function, the whole file is read.
+    /// For JSON and other text, the steps that [`steps`] returns also hold the frame's position in the file; for a step
+    /// made with this function, the file is read from its beginning.
     pub fn new(index: usize, time: Option<f64>) -> Self {
-        Self { index, time, part: None }
+        Self { index, time, part: None, text: None }
     }
 }
 
@@ -83,13 +96,16 @@ fn found(path: &Path) -> Result<Vec<Step>, ReadError> {
     let starts = match format::detect(&start, hint) {
         Ok(format::Reader::XyzText | format::Reader::Csv) => {
             let content = Content::new(&input, gzip)?;
-            let times = tecplot::times(&content)?;
-            if !times.is_empty() {
-                return Ok(of(times));
+            let zones = tecplot::starts(&content)?;
+            if !zones.is_empty() {
+                return Ok(spans(&content, &zones));
             }
-            xyz::starts(&content, None)?
+            spans(&content, &xyz::starts(&content, None)?)
         }
-        Ok(format::Reader::Lammps) => lammps::starts(&Content::new(&input, gzip)?, None)?,
+        Ok(format::Reader::Lammps) => {
+            let content = Content::new(&input, gzip)?;
+            spans(&content, &lammps::starts(&content, None)?)
+        }
         Ok(format::Reader::Json) => return json::steps(&Content::new(&input, gzip)?),
         Ok(kind @ (format::Reader::Npy | format::Reader::Npz)) if !gzip => {
             let times = numpy::times(&input, kind == format::Reader::Npz)?;
@@ -101,11 +117,48 @@ fn found(path: &Path) -> Result<Vec<Step>, ReadError> {
         _ => Vec::new(),
     };
     if starts.len() > 1 {
-        return Ok(of(starts.into_iter().map(|start| start.time).collect()));
+        return Ok(starts);
     }
     let plan = parts::plan(&input, hint, gzip, &Asked::default())?;
     let times = plan.map_or(Ok(Vec::new()), |plan| plan.times())?;
     Ok(of(times.into_iter().map(Some).collect()))
+}
+
+/// The frames of a text, given where they begin.
+fn spans(content: &Content<'_>, starts: &[Start]) -> Vec<Step> {
+    let length = content.length();
+    let ends = starts.iter().skip(1).map(|start| start.at).chain([length]);
+    let span = |(index, (start, end)): (usize, (&Start, u64))| {
+        let text = Some(Span { start: start.at, end, lines: start.lines, length });
+        Step { text, ..Step::new(index, start.time) }
+    };
+    starts.iter().zip(ends).enumerate().map(span).collect()
+}
+
+/// The part of a text that holds the requested frame, and the frame's time. `None` if none was requested, or if its
+/// position is unknown.
+pub(super) fn known_part<'a>(
+    content: &Content<'a>,
+    asked: &Asked,
+) -> Result<Option<(Content<'a>, Option<f64>)>, ReadError> {
+    let Some(step) = asked.step() else { return Ok(None) };
+    // A file of another length was written anew.
+    let span = step.text.filter(|span| span.length == content.length());
+    let Some(Span { start, end, lines, .. }) = span else { return Ok(None) };
+    Ok(Some((content.part(start, end, lines)?, step.time)))
+}
+
+/// The same, with `starts` to find the frames if the position is unknown.
+pub(super) fn asked_part<'a>(
+    content: &Content<'a>,
+    asked: &Asked,
+    starts: fn(&Content<'_>, Option<usize>) -> Result<Vec<Start>, ReadError>,
+) -> Result<Option<(Content<'a>, Option<f64>)>, ReadError> {
+    let Some(step) = asked.step() else { return Ok(None) };
+    match known_part(content, asked)? {
+        None => part(content, &starts(content, Some(step.index))?, step.index),
+        known => Ok(known),
+    }
 }
 
 /// The part of a text that holds a frame, given where the frames begin.

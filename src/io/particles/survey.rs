@@ -84,6 +84,8 @@ struct Dropped {
     attribute: String,
     value: f64,
     particle: usize,
+    /// If the value is too large for 32-bit floats to tell integers apart: the number from which on that is so.
+    inexact: Option<f64>,
 }
 
 /// Max number of positions from which their extent is found.
@@ -213,6 +215,9 @@ pub(super) struct Survey {
     not_finite: usize,
     /// Number of velocities that are not finite; a missing one is read as NaN.
     unmoved: usize,
+    /// Number of densities that are not finite, and of lifetimes that are NaN.
+    no_density: usize,
+    no_lifetime: usize,
     ids: Option<Dropped>,
     kinds: Option<Dropped>,
     places: Repeats,
@@ -236,6 +241,8 @@ impl Survey {
             step: 1,
             not_finite: 0,
             unmoved: 0,
+            no_density: 0,
+            no_lifetime: 0,
             ids: None,
             kinds: None,
             places: Repeats::default(),
@@ -343,17 +350,28 @@ impl Survey {
             Some(Extra { name, values: (0..rows).map(|i| columns.f64(column, i)).collect() })
         };
         let extras = roles.extras.iter().filter_map(extra).collect();
+        // The time left is the difference, rounded only afterwards.
+        let left: Option<Vec<f32>> = roles.lifetimes.zip(roles.ages).map(|(life, age)| {
+            (0..rows).map(|i| (columns.f64(life, i) - columns.f64(age, i)) as f32).collect()
+        });
         let positions = columns.take_vectors(roles.positions, self.origin);
         let velocities = roles.velocities.map(|v| columns.take_vectors(v, [0.0; 3]));
         let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
-        let (densities, lifetimes) = (scalar(roles.densities), scalar(roles.lifetimes));
+        let densities = scalar(roles.densities);
+        let lifetimes = left.or_else(|| scalar(roles.lifetimes));
         let mut whole = |column: Option<usize>, to: Whole, dropped: &mut Option<Dropped>| {
             let column = column?;
             let data = columns.take(column);
-            let values = to(&data).map_err(|i| Dropped {
-                attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
-                value: data.f64(i).unwrap_or(f64::NAN),
-                particle: self.seen + i,
+            let values = to(&data).map_err(|i| {
+                let value = data.f64(i).unwrap_or(f64::NAN);
+                let inexact =
+                    matches!(data, Data::F32(_)) && value.fract() == 0.0 && value >= data.limit();
+                Dropped {
+                    attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
+                    value,
+                    particle: self.seen + i,
+                    inexact: inexact.then(|| data.limit()),
+                }
             });
             values.map_err(|first| dropped.get_or_insert(first)).ok()
         };
@@ -393,6 +411,10 @@ impl Survey {
         if self.asks {
             self.not_finite += super::count_non_finite(&particles.positions);
             self.unmoved += particles.velocities.as_deref().map_or(0, super::count_non_finite);
+            let densities = particles.densities.iter().flatten();
+            self.no_density += densities.filter(|density| !density.is_finite()).count();
+            let lifetimes = particles.lifetimes.iter().flatten();
+            self.no_lifetime += lifetimes.filter(|left| left.is_nan()).count();
             particles.positions.iter().for_each(|p| self.places.add_place(*p));
             particles.ids.iter().flatten().for_each(|id| self.numbers.add(u64::from(*id)));
         }
@@ -451,10 +473,30 @@ impl Survey {
                 self.kept()
             )
         });
+        let no_density = (self.no_density > 0).then(|| {
+            format!(
+                "{} of {} densities are missing or not finite (NaN or infinite): spray of these particles is not right",
+                self.no_density,
+                self.kept()
+            )
+        });
+        let no_lifetime = (self.no_lifetime > 0).then(|| {
+            format!(
+                "{} of {} lifetimes are missing (NaN): these particles count as dead",
+                self.no_lifetime,
+                self.kept()
+            )
+        });
         let dropped =
             [(&self.ids, " from 0 on"), (&self.kinds, " from 0 to 4294967295")].into_iter();
         let dropped = dropped.filter_map(|(dropped, limits)| {
-            let Dropped { attribute, value, particle } = dropped.as_ref()?;
+            let Dropped { attribute, value, particle, inexact } = dropped.as_ref()?;
+            if let Some(limit) = inexact {
+                return Some(format!(
+                    "attribute `{attribute}` is dropped: value {value} of particle {particle} is stored as a 32-bit \
+                     float, which is not exact from {limit} on; write integers"
+                ));
+            }
             Some(format!(
                 "attribute `{attribute}` is dropped: {} of particle {particle} is not a whole number{limits}",
                 if value.is_nan() { "the word or NaN".into() } else { format!("value {value}") }
@@ -481,6 +523,8 @@ impl Survey {
         Ok(told
             .chain(not_finite)
             .chain(unmoved)
+            .chain(no_density)
+            .chain(no_lifetime)
             .chain(dropped)
             .chain(repeated)
             .chain(doubled)

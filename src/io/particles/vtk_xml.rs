@@ -241,6 +241,8 @@ impl<'a> Grid<'a> {
                 ));
             };
             let (name, components, ty) = reader.described(&array)?;
+            // The name that VTK itself gives them.
+            let name = if array.has_attribute("Name") { name } else { "Points".into() };
             let first_piece = self.found.is_empty();
             if components != 3 || ty.size().is_none() {
                 return Err(ReadError::malformed(

@@ -3,8 +3,8 @@
 //! A `Grid` has a `Geometry` with points, and `Attribute`s at nodes. The grids of a temporal collection are
 //! frames, those of a spatial one are parts of a frame. A grid without points takes those of the first grid,
 //! because writers of time series omit them. A `DataItem` holds its values inline, in an array of an HDF5
-//! file beside it (`file.h5:/path`), or refers to another item. Attributes of cells are read if the cells are the
-//! points, see `cells`.
+//! file beside it (`file.h5:/path`), or refers to another item by a path of elements. Attributes of cells are read if
+//! the cells are the points, see `cells`.
 
 use std::path::Path;
 
@@ -14,12 +14,14 @@ use super::asked::Asked;
 use super::cells::{self, Cells};
 use super::columns::{Attribute, AttributeType, Data, Table};
 use super::error::{Place, ReadError};
-use super::hdf5::File;
+use super::hdf5::{File, listed};
 use super::index;
 use super::{Format, Particles};
 
 /// Max number of grids in a file.
 const GRIDS: usize = 1 << 16;
+/// Max number of references from one item to the next.
+const REFERENCES: usize = 16;
 
 /// The text of a file, by its extension; `None` for any other file.
 fn text(path: &Path) -> Option<String> {
@@ -73,6 +75,36 @@ fn time(grid: &Node<'_, '_>) -> Option<f64> {
     child(grid, "Time")?.attribute("Value")?.trim().parse().ok()
 }
 
+/// The times that a collection lists for its grids: numbers, or the first one, their distance and their count.
+fn times_of(collection: &Node<'_, '_>) -> Vec<f64> {
+    let Some(time) = child(collection, "Time") else { return Vec::new() };
+    let kind = time.attribute("TimeType").or_else(|| time.attribute("Type")).unwrap_or_default();
+    let item = child(&time, "DataItem").filter(|item| {
+        matches!(item.attribute("Format"), None | Some("XML"))
+            && item.attribute("Reference").is_none()
+    });
+    let text = item.and_then(|item| item.text()).unwrap_or_default();
+    let numbers = text.split_whitespace().map(|word| word.parse::<f64>().ok());
+    let numbers: Vec<f64> = numbers.collect::<Option<_>>().unwrap_or_default();
+    if kind == "List" {
+        return numbers;
+    }
+    let [first, step, count] = numbers.as_slice() else { return Vec::new() };
+    let count = if kind == "HyperSlab" { (*count as usize).min(GRIDS) } else { 0 };
+    (0..count).map(|i| first + step * i as f64).collect()
+}
+
+/// Whether the grids are parts of one thing, as its writer said.
+fn are_parts(grids: &[Node<'_, '_>]) -> bool {
+    grids.iter().all(|grid| {
+        let around = grid.parent().filter(|around| is(around, "Grid"));
+        around.is_some_and(|around| {
+            around.attribute("GridType") == Some("Collection")
+                && matches!(around.attribute("CollectionType"), None | Some("Spatial"))
+        })
+    })
+}
+
 fn frames<'d>(document: &'d Document<'_>) -> Result<Vec<Frame<'d, 'd>>, ReadError> {
     let root = document.root_element();
     if !is(&root, "Xdmf") {
@@ -89,9 +121,12 @@ fn frames<'d>(document: &'d Document<'_>) -> Result<Vec<Frame<'d, 'd>>, ReadErro
     let mut frames = Vec::new();
     match temporal {
         Some(all) => {
-            for grid in all.children().filter(|node| is(node, "Grid")).take(GRIDS) {
+            let listed = times_of(&all);
+            let own = all.children().filter(|node| is(node, "Grid")).take(GRIDS);
+            for (i, grid) in own.enumerate() {
                 let grids = grid.descendants().filter(uniform).collect();
-                frames.push(Frame { time: time(&grid), grids });
+                let time = time(&grid).or_else(|| listed.get(i).copied());
+                frames.push(Frame { time, grids });
             }
         }
         None => {
@@ -136,6 +171,13 @@ fn of_document(
         false => frame.grids,
     };
     let count = grids.len();
+    if count > 1 && !are_parts(&grids) {
+        let names = grids.iter().map(|grid| grid.attribute("Name").unwrap_or("unnamed"));
+        table.warnings.push(format!(
+            "{count} grids are joined: {}; if some of them are walls, give the file of the water alone",
+            listed(names)
+        ));
+    }
     let (mut cells, mut on_cells) = (Cells::default(), Vec::new());
     for (i, grid) in grids.iter().enumerate() {
         let Some(points) = child(grid, "Geometry").or(shared) else {
@@ -321,22 +363,39 @@ impl<'d> Reader<'d, '_, '_> {
 
     /// The item that this one refers to, or itself.
     fn referred(&self, item: Node<'d, 'd>) -> Result<Node<'d, 'd>, ReadError> {
-        let Some(path) = item.attribute("Reference") else { return Ok(item) };
-        let path = if path == "XML" { item.text().unwrap_or_default() } else { path };
-        // A reference such as /Xdmf/Domain/DataItem[@Name="p"]; the name suffices.
-        let name = path.split(['"', '\'']).nth(1).unwrap_or_default();
-        let mut items = self.document.descendants().filter(|node| is(node, "DataItem"));
-        items
-            .find(|node| {
-                node.attribute("Name") == Some(name) && node.attribute("Reference").is_none()
-            })
-            .ok_or_else(|| {
-                ReadError::malformed(
-                    "the DataItem that another one refers to",
-                    path.trim(),
-                    Place::Unknown,
-                )
-            })
+        let mut item = item;
+        for _ in 0..REFERENCES {
+            let Some(path) = item.attribute("Reference") else { return Ok(item) };
+            let path = if path == "XML" { item.text().unwrap_or_default() } else { path };
+            item = self.at(item, path.trim())?;
+        }
+        Err(ReadError::malformed(
+            "a DataItem with values behind a reference",
+            "ever more references",
+            Place::Unknown,
+        ))
+    }
+
+    /// The item that a path leads to, such as `/Xdmf/Domain/Grid[2]/Geometry/DataItem[@Name="p"]`.
+    fn at(&self, from: Node<'d, 'd>, path: &str) -> Result<Node<'d, 'd>, ReadError> {
+        let root: Node<'d, 'd> = self.document.root();
+        let mut found = follow(root, from, path).unwrap_or_default();
+        found.retain(|node| is(node, "DataItem"));
+        // Where the path has other steps than those, a name suffices if only one item has it.
+        let name = path.split(['"', '\'']).rev().nth(1);
+        if let (true, Some(name)) = (found.is_empty(), name) {
+            let items = root.descendants().filter(|node| is(node, "DataItem"));
+            found = items.filter(|node| node.attribute("Name") == Some(name)).collect();
+            found.retain(|node| node.attribute("Reference").is_none());
+        }
+        match found.as_slice() {
+            [item] => Ok(*item),
+            _ => Err(ReadError::malformed(
+                "one DataItem that another one refers to",
+                format!("{} by `{path}`", found.len()),
+                Place::Unknown,
+            )),
+        }
     }
 
     /// Dimensions and values of an item.
@@ -393,4 +452,77 @@ impl<'d> Reader<'d, '_, '_> {
         let (_, open) = self.open.as_ref().ok_or_else(bad)?;
         open.numbers(path).map_err(|error| super::parts::named(&beside, error))
     }
+}
+
+/// The elements that a path leads to, from an item. `None` if it has other steps than names, numbers and attributes.
+fn follow<'d>(root: Node<'d, 'd>, from: Node<'d, 'd>, path: &str) -> Option<Vec<Node<'d, 'd>>> {
+    let (start, path) = match (path.strip_prefix("//"), path.strip_prefix('/')) {
+        (Some(path), _) => (root.descendants().collect::<Vec<_>>(), path),
+        (None, Some(path)) => (vec![root], path),
+        (None, None) => (vec![from], path),
+    };
+    let mut nodes: Vec<Node<'d, 'd>> = start;
+    // A name may have slashes.
+    let mut quote = None;
+    let steps = path.split(|c: char| {
+        match quote {
+            Some(open) if c == open => quote = None,
+            None if matches!(c, '"' | '\'') => quote = Some(c),
+            _ => {}
+        }
+        c == '/' && quote.is_none()
+    });
+    for step in steps {
+        let step = step.trim();
+        let at = step.find('[').unwrap_or(step.len());
+        let (name, conditions) = step.split_at_checked(at)?;
+        let name = name.trim();
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
+        if name != "*" && (name.is_empty() || !name.chars().all(plain)) {
+            return None;
+        }
+        let mut next = Vec::new();
+        for node in nodes {
+            match name {
+                "." => next.push(node),
+                ".." => next.extend(node.parent()),
+                _ => {
+                    let inner = node
+                        .children()
+                        .filter(|inner| inner.is_element() && (name == "*" || is(inner, name)));
+                    next.append(&mut kept(inner.collect(), conditions)?);
+                }
+            }
+        }
+        nodes = next;
+    }
+    Some(nodes)
+}
+
+/// The elements that fulfil conditions, such as `[2]` or `[@Name="p"]`; `None` for conditions of other kinds.
+fn kept<'d>(mut nodes: Vec<Node<'d, 'd>>, conditions: &str) -> Option<Vec<Node<'d, 'd>>> {
+    let mut rest = conditions.trim();
+    while !rest.is_empty() {
+        let inner = rest.strip_prefix('[')?.trim_start();
+        let behind = match inner.strip_prefix('@') {
+            Some(attribute) => {
+                let (name, value) = attribute.split_once('=')?;
+                let value = value.trim_start();
+                let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+                let (value, behind) = value.strip_prefix(quote)?.split_once(quote)?;
+                nodes.retain(|node| node.attribute(name.trim()) == Some(value));
+                behind
+            }
+            None => {
+                let end = inner.find(']')?;
+                let (number, behind) = inner.split_at_checked(end)?;
+                // Counted from 1.
+                let index = number.trim().parse::<usize>().ok()?.checked_sub(1)?;
+                nodes = nodes.get(index).copied().into_iter().collect();
+                behind
+            }
+        };
+        rest = behind.trim_start().strip_prefix(']')?.trim_start();
+    }
+    Some(nodes)
 }

@@ -7,7 +7,7 @@
 //! A first line with a single number is the count, as in chemistry. The next line is then a comment, which
 //! may name the columns (`Properties=species:S:1:pos:R:3`, extended XYZ). Without names, the first column is
 //! taken as the element and not as a position if it holds words or, in a file with a count and four or more
-//! columns, integers.
+//! columns, integers from 1 on.
 
 use super::Format;
 use super::asked::Asked;
@@ -87,13 +87,44 @@ pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<S
     Ok(starts)
 }
 
-/// The time in a comment: `Time=0.1`.
+/// The time in a comment: `Time=0.1`. What is in quotes does not count: `pbc="T T T"`.
 pub(super) fn time_in(comment: &[u8]) -> Option<f64> {
-    let text = std::str::from_utf8(comment).ok()?.to_ascii_lowercase();
-    let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '=' | ':' | '"'));
-    let mut words = words.filter(|word| !word.is_empty());
-    words.find(|word| matches!(*word, "time" | "t"))?;
-    words.next()?.parse().ok()
+    let text = std::str::from_utf8(comment).ok()?;
+    let quotes = text.matches('"').count().is_multiple_of(2);
+    let (mut inside, mut before) = (false, ' ');
+    for (at, c) in text.char_indices() {
+        inside ^= quotes && c == '"';
+        let begins = before.is_whitespace() || matches!(before, ',' | ';' | '=' | ':' | '"');
+        before = c;
+        if inside || !begins {
+            continue;
+        }
+        if let Some(time) = text.get(at..).and_then(time_at) {
+            return Some(time);
+        }
+    }
+    None
+}
+
+/// The time that begins a text: `time=0.1`, `T: 0.1` or `time 0.1`, but not `T 0.1`: a flag may be called so.
+fn time_at(text: &str) -> Option<f64> {
+    let behind = |word: &str| {
+        let (start, rest) = text.split_at_checked(word.len())?;
+        start.eq_ignore_ascii_case(word).then_some(rest)
+    };
+    let long = behind("time");
+    let rest = long.or_else(|| behind("t"))?;
+    let value = rest.trim_start();
+    let spaced = long.is_some() && value.len() < rest.len();
+    let value = match value.strip_prefix(['=', ':']) {
+        Some(value) => value.trim_start(),
+        None if spaced => value,
+        None => return None,
+    };
+    let value = value.strip_prefix('"').unwrap_or(value);
+    let ends = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '=' | ':' | '"');
+    let value = value.split(ends).next()?;
+    value.parse().ok().filter(|time: &f64| time.is_finite())
 }
 
 pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
@@ -102,11 +133,7 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
         return tecplot::open(content, &lines, asked);
     }
     drop(lines);
-    let starts = asked.step().map(|step| starts(content, Some(step.index))).transpose()?;
-    let part = asked.step().zip(starts);
-    if let Some((content, time)) =
-        part.map_or(Ok(None), |(step, starts)| steps::part(content, &starts, step.index))?
-    {
+    if let Some((content, time)) = steps::asked_part(content, asked, starts)? {
         let mut table = open_one(&content, &asked.clone().of_step(None))?;
         table.about.time = table.about.time.or(time);
         return Ok(table);
@@ -119,7 +146,10 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
     let lines = heading::lines(content)?;
     let counted = Counted::of(&lines);
     let (heading, promised) = match counted {
-        Some(Counted { heading, count }) => (heading, Some(count)),
+        Some(Counted { heading, count, time }) => {
+            about.time = time;
+            (heading, Some(count))
+        }
         None => (Heading::of(&lines), None),
     };
     let named = !heading.names.is_empty();
@@ -135,8 +165,9 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
             return Err(ReadError::table("lines of three numbers", "none", Place::Unknown));
         }
         Some(line) if !named => {
-            let row: Vec<_> = words(&line.text, commas).collect();
-            let from = element(&lines, heading.at, commas, promised.is_some());
+            let row: Vec<_> = values(&line.text, commas).collect();
+            let element = element(&lines, heading.at, commas, promised.is_some());
+            let from = usize::from(element.is_some());
             if row.len() < from + 2 {
                 return Err(bad_line(&line.text, content.lines_before() + heading.line + 1));
             }
@@ -148,7 +179,7 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
             names.extend((from..row.len()).map(|i| unnamed(i - from)));
             about.warnings.extend(match counts {
                 true => Some(counted_warning(row.len())),
-                false => unnamed_warning(from, row.len()),
+                false => unnamed_warning(element, row.len()),
             });
         }
         _ => {}
@@ -255,7 +286,7 @@ pub(super) fn rows_of_zones<'a>(
         columns.push(Column::new(name, 1, AttributeType::Number));
         columns.len() - 1
     });
-    let zones = Some(Zones { column: zone, index: -1.0 });
+    let zones = Some(tecplot::Zones::new(zone));
     let rows = Lines {
         text,
         number,
@@ -270,16 +301,29 @@ pub(super) fn rows_of_zones<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// A warning that columns without names are not read; the first `from` (0 or 1) of all columns are the element.
-fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
-    let more = columns > from + 3;
-    match from {
-        0 if more => Some(format!(
+/// What the first column holds if it is the element.
+#[derive(Clone, Copy, PartialEq)]
+enum Element {
+    Words,
+    Integers,
+}
+
+/// A warning that columns without names are not read, or that the first column may be no element.
+fn unnamed_warning(element: Option<Element>, columns: usize) -> Option<String> {
+    let more = columns > 3 + usize::from(element.is_some());
+    let rest = if more { ", the others are not read" } else { "" };
+    match element {
+        None if more => Some(format!(
             "no line of names: the first 3 of {columns} columns are taken as positions, the others are not read"
         )),
-        1 if more => Some(format!(
-            "no line of names: the first of {columns} columns is taken as the element, the 3 behind it as positions, \
-             the others are not read"
+        Some(Element::Words) if more => Some(format!(
+            "no line of names: the first of {columns} columns is taken as the element, the 3 behind it as \
+             positions{rest}"
+        )),
+        // Nothing but the values tells such a column from a coordinate.
+        Some(Element::Integers) => Some(format!(
+            "no line of names: the first of {columns} columns, whole numbers, is taken as the element, the 3 behind it \
+             as positions{rest}; if it is x, name all columns in the line below the count: x y z density"
         )),
         _ => None,
     }
@@ -314,9 +358,9 @@ pub(super) fn counted_warning(columns: usize) -> String {
     )
 }
 
-/// Number of columns before the position: 1 if the first column holds words or, in a file with a particle count,
-/// integers; otherwise 0.
-fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
+/// The element in the column before the position, if there is one: the first column holds words or, in a file with a
+/// particle count, integers from 1 on.
+fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> Option<Element> {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<Vec<_>> = rows.map(|line| words(&line.text, commas).collect()).collect();
     let numbers = |row: &Vec<&[u8]>| row.iter().filter(|w| number(w).is_some()).count();
@@ -325,7 +369,9 @@ fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
         rows.first().and_then(|row| row.first()).is_some_and(|word| test(word))
     };
     let of_word = first(&|word| number(word).is_none());
-    let whole = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
+    // No element has the number 0.
+    let whole =
+        |word: &[u8]| word.iter().all(u8::is_ascii_digit) && word.iter().any(|b| *b != b'0');
     let same = rows.first().map_or(0, Vec::len);
     let of_number = counted
         && same > 3
@@ -334,13 +380,20 @@ fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
             .filter(|row| row.len() == same)
             .all(|row| row.first().is_some_and(|w| whole(w)));
     let enough = rows.first().is_some_and(|row| numbers(row) >= 3);
-    usize::from((of_word || of_number) && enough)
+    match (of_word, of_number) {
+        _ if !enough => None,
+        (true, _) => Some(Element::Words),
+        (false, true) => Some(Element::Integers),
+        (false, false) => None,
+    }
 }
 
 /// The beginning of a file with a count.
 struct Counted {
     heading: Heading,
     count: u64,
+    /// The time in the comment.
+    time: Option<f64>,
 }
 
 impl Counted {
@@ -357,7 +410,8 @@ impl Counted {
             line: at as u64 + 1,
             passed: 0,
         };
-        let Some(comment) = lines.get(at + 1) else { return Some(Self { heading, count }) };
+        let time = None;
+        let Some(comment) = lines.get(at + 1) else { return Some(Self { heading, count, time }) };
         let row = lines.iter().skip(at + 2).find(|line| !is_comment(&line.text));
         heading.delimiter = heading::delimiter(row.map_or(&comment.text, |row| &row.text));
         let commas = heading.delimiter == Some(b',');
@@ -366,7 +420,7 @@ impl Counted {
         let alike = row.is_none_or(|row| fields(row) == fields(comment));
         if numbers >= 2 && numbers == fields(comment) && alike {
             // This line is not a comment but the first particle.
-            return Some(Self { heading, count });
+            return Some(Self { heading, count, time });
         }
         heading.at = comment.next;
         heading.line += 1;
@@ -375,7 +429,7 @@ impl Counted {
             let same = row.is_some_and(|row| fields(row) == names.len());
             if same && names::have_positions(&names) { names } else { Vec::new() }
         });
-        Some(Self { heading, count })
+        Some(Self { heading, count, time: time_in(&comment.text) })
     }
 }
 
@@ -421,19 +475,15 @@ struct Lines<'a> {
     /// The box that scales positions, and the columns of the axes.
     basis: Option<(Basis, [Option<usize>; 3])>,
     /// The Tecplot zones of the rows.
-    zones: Option<Zones>,
-}
-
-struct Zones {
-    /// The column for the zone's number, if it is used.
-    column: Option<usize>,
-    /// Number of the current zone, from 0; -1 before the first one.
-    index: f64,
+    zones: Option<tecplot::Zones>,
 }
 
 impl Lines<'_> {
     /// Called after the last line.
-    fn end(&self) -> Result<(), ReadError> {
+    fn end(&mut self) -> Result<(), ReadError> {
+        if let Some(zones) = &mut self.zones {
+            zones.end(self.number)?;
+        }
         match self.promised {
             Some(expected) if expected != self.rows => {
                 Err(cut(self.dump, (expected, self.rows), self.number))
@@ -470,37 +520,44 @@ impl RowReader for Lines<'_> {
             self.number += 1;
             let line = line.trim_ascii();
             if is_comment(line) {
-                let zone = tecplot::is_zone(line);
-                self.zones.iter_mut().filter(|_| zone).for_each(|zones| zones.index += 1.0);
+                if let Some(zones) = &mut self.zones {
+                    zones.pass(line, self.number)?;
+                }
                 continue;
             }
-            if self.zones.is_some()
-                && (tecplot::variables(line).is_some() || line.starts_with(b"\""))
-            {
-                continue;
+            if let Some(zones) = &mut self.zones {
+                let names = tecplot::variables(line).is_some() || line.starts_with(b"\"");
+                if names || !zones.is_row(line, self.number)? {
+                    continue;
+                }
             }
             let next = || line.iter().all(u8::is_ascii_digit) || line.starts_with(b"ITEM:");
             if self.promised == Some(self.rows) && next() {
                 return Err(several_frames(self.number));
             }
             let read = row(line, self.number, self.commas, &self.columns, columns);
+            if let Ok(true) = read {
+                // A line that is too long was not cut off.
+                let found = values(line, self.commas).count();
+                return Err(wrong_count(line, self.number, self.columns.len(), found));
+            }
             if let Err(error) = read {
                 // The last row may be cut off within.
                 let promised = self.promised.filter(|promised| *promised > self.rows);
+                let zone = self.zones.as_ref().and_then(|zones| zones.missing(self.number));
                 self.text.skip_space()?;
-                return Err(match (self.text.ahead(1)?.is_empty(), promised) {
-                    (true, Some(promised)) => cut(self.dump, (promised, self.rows), self.number),
-                    (true, None) => error.in_last_row(),
-                    (false, _) => error,
+                return Err(match (self.text.ahead(1)?.is_empty(), promised, zone) {
+                    (true, Some(promised), _) => cut(self.dump, (promised, self.rows), self.number),
+                    (true, None, Some(zone)) => zone,
+                    (true, None, None) => error.in_last_row(),
+                    (false, ..) => error,
                 });
             }
             if let Some((basis, axes)) = &self.basis {
                 basis.apply(axes, columns);
             }
-            if let Some(Zones { column: Some(column), index }) = &self.zones
-                && let Some(column) = columns.get_mut(*column)
-            {
-                column.data.push_number(*index);
+            if let Some(zones) = &mut self.zones {
+                zones.took(columns);
             }
             self.rows += 1;
             return Ok(true);
@@ -519,21 +576,18 @@ pub(super) fn several_frames(line: u64) -> ReadError {
     }
 }
 
-/// Appends the values of a line. `taken` holds, for each word, the column that takes it.
+/// Appends the values of a line, and returns whether more follow. `taken` holds, for each word, the column that takes
+/// it.
 fn row(
     line: &[u8],
     number: u64,
     commas: bool,
     taken: &[Option<usize>],
     columns: &mut [Column],
-) -> Result<(), ReadError> {
+) -> Result<bool, ReadError> {
     let mut all = words(line, commas);
     for (i, column) in taken.iter().enumerate() {
-        let word = all.next().ok_or_else(|| {
-            let found = format!("{i} in {}", show(line));
-            let place = Place::Line(number);
-            ReadError::table(format!("{} values in each line", taken.len()), found, place)
-        })?;
+        let word = all.next().ok_or_else(|| wrong_count(line, number, taken.len(), i))?;
         let Some(column) = column.and_then(|i| columns.get_mut(i)) else { continue };
         if column.data.push_text(word) {
             continue;
@@ -545,7 +599,13 @@ fn row(
             return Err(ReadError::table(expected, show(word), Place::Line(number)));
         }
     }
-    Ok(())
+    Ok(all.next().is_some_and(|word| !is_remark(word)))
+}
+
+/// Error: a line with another number of values than there are columns.
+fn wrong_count(line: &[u8], number: u64, expected: usize, found: usize) -> ReadError {
+    let found = format!("{found} in {}", show(line));
+    ReadError::table(format!("{expected} values in each line"), found, Place::Line(number))
 }
 
 fn bad_line(line: &[u8], number: u64) -> ReadError {
@@ -569,4 +629,13 @@ fn words(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
         b => b.is_ascii_whitespace(),
     };
     line.split(between).filter(|word| !word.is_empty())
+}
+
+/// The words of a line up to a comment at its end.
+pub(super) fn values(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
+    words(line, commas).take_while(|word| !is_remark(word))
+}
+
+fn is_remark(word: &[u8]) -> bool {
+    word.starts_with(b"//") || matches!(word.first(), Some(b'#' | b'%' | b'!'))
 }

@@ -95,11 +95,18 @@ pub fn read_hdr(bytes: &[u8]) -> Result<Layers, String> {
     };
     let file = SIGNATURES[0].chain(body);
     let decoder = image::codecs::hdr::HdrDecoder::new(file).map_err(|e| e.to_string())?;
+    // The decoder only reads what the pixels were multiplied with.
+    let about = decoder.metadata();
+    let (r, g, b) = about.color_correction.unwrap_or((1.0, 1.0, 1.0));
+    let factors = [r, g, b].map(|factor| factor * about.exposure.unwrap_or(1.0));
+    if factors.iter().any(|factor| !factor.is_finite() || *factor <= 0.0) {
+        return Err("one whose EXPOSURE or COLORCORR is not a positive number".into());
+    }
     let image = image::DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
     let image = image.into_rgb32f();
     let mut layers = Layers::new(image.width() as usize, image.height() as usize);
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
-        let data = image.pixels().map(|p| p.0[c]).collect();
+        let data = image.pixels().map(|p| p.0[c] / factors[c]).collect();
         let (width, height) = (layers.width, layers.height);
         layers.push(name, width, height, data).map_err(|e| e.to_string())?;
     }
@@ -152,5 +159,25 @@ mod tests {
             assert_eq!(rgb, [[1.0, 0.5, 0.25], [1.0, 2.0, 0.0]], "{signature}");
         }
         assert!(read("#?XYZE").unwrap_err().contains("#?RGBE"));
+    }
+
+    /// Pixels are divided by all exposures and colour corrections of the header.
+    #[test]
+    fn exposure_of_radiance_is_divided_out() {
+        let read = |lines: &str| {
+            let header = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{lines}\n-Y 1 +X 2\n");
+            let pixels = [128, 64, 32, 129, 64, 128, 0, 130];
+            read_hdr(&[header.as_bytes(), &pixels].concat())
+        };
+        for (lines, expected) in [
+            ("EXPOSURE=4.0\n", [[0.25, 0.125, 0.0625], [0.25, 0.5, 0.0]]),
+            ("EXPOSURE=2\nEXPOSURE= 0.25\n", [[2.0, 1.0, 0.5], [2.0, 4.0, 0.0]]),
+            ("EXPOSURE=2\nCOLORCORR=1 2 4\n", [[0.5, 0.125, 0.03125], [0.5, 0.5, 0.0]]),
+        ] {
+            assert_eq!(read(lines).unwrap().rgb().unwrap(), expected, "{lines}");
+        }
+        for lines in ["EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n"] {
+            assert!(read(lines).unwrap_err().contains("EXPOSURE"), "{lines}");
+        }
     }
 }

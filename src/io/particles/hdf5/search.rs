@@ -25,9 +25,13 @@ fn stacked(arrays: &[Array], limit: usize) -> Result<Option<Frames>, ReadError> 
     });
     let Some(count) = count else { return Ok(None) };
     let of = |array: &Array| array.dataset.shape().first() == Some(&count);
+    // A time in seconds is preferred to a step number.
     let times = arrays
         .iter()
-        .find(|array| names::is_time(&array.name) && array.dataset.ndim() == 1 && of(array));
+        .filter(|array| array.dataset.ndim() == 1 && of(array))
+        .filter_map(|array| Some((names::time_rank(&array.name)?, array)))
+        .min_by_key(|(rank, _)| *rank)
+        .map(|(_, array)| array);
     let times =
         times.map(|array| numbers(&array.dataset, type_of(&array.dataset), &Rows::All, limit));
     let times = times.transpose()?;
@@ -48,6 +52,8 @@ type Frames = Vec<(Option<f64>, Vec<Array>)>;
 struct Found {
     path: String,
     frames: Frames,
+    /// Whether the group has nothing but x, y and z, which may be those of a vector of the group around it.
+    bare: bool,
 }
 
 impl Found {
@@ -57,6 +63,12 @@ impl Found {
         let position =
             |array: &&Array| names::is_position(&array.name) || names::is_component(&array.name);
         arrays.find(position).map_or(u64::MAX, |array| array.dataset.address())
+    }
+
+    /// Number of values of the first array, in all frames together.
+    fn values(&self) -> Option<u64> {
+        let mut arrays = self.frames.iter().flat_map(|(_, arrays)| arrays);
+        arrays.next().map(|array| product(array.dataset.shape()))
     }
 
     /// The time, unless there are several.
@@ -70,9 +82,10 @@ impl Found {
 
 /// The frames of a file that is not VTKHDF, found by its arrays and by the names of its groups.
 pub(super) fn frames(file: &Hdf5File, root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
-    let mut search = Search { file, limit, looked: 0, found: vec![], seen: vec![], links: vec![] };
+    let mut search =
+        Search { file, limit, looked: 0, found: vec![], seen: vec![], links: vec![], told: vec![] };
     search.group(root, ("", 0), None)?;
-    let Search { mut found, seen, links, .. } = search;
+    let Search { mut found, seen, links, mut told, .. } = search;
     if found.is_empty() && !links.is_empty() {
         let links = listed(links.iter().map(String::as_str));
         return Err(ReadError::Unsupported {
@@ -85,7 +98,6 @@ pub(super) fn frames(file: &Hdf5File, root: &Group, limit: usize) -> Result<Vec<
         let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
         return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
     }
-    let mut told = Vec::new();
     if !links.is_empty() {
         let links = listed(links.iter().map(String::as_str));
         told.push(format!("links to other files are not followed: {links}"));
@@ -161,7 +173,7 @@ fn merged(found: Vec<Found>) -> Vec<Frame> {
     let paths: Vec<_> = found.iter().map(|found| found.path.as_str()).collect();
     let pieces = groups::are_pieces(&paths);
     let mut frames: Vec<Frame> = Vec::new();
-    for Found { path, frames: own } in found {
+    for Found { path, frames: own, .. } in found {
         for (i, (time, arrays)) in own.into_iter().enumerate() {
             if frames.len() <= i {
                 frames.push(Frame { time, parts: Vec::new(), pieces });
@@ -172,6 +184,20 @@ fn merged(found: Vec<Found>) -> Vec<Frame> {
         }
     }
     frames
+}
+
+fn product(shape: &[u64]) -> u64 {
+    shape.iter().fold(1, |all, n| all.saturating_mul(*n))
+}
+
+/// Whether these are the components of a vector, of two or three dimensions.
+fn are_components(arrays: &[Array]) -> bool {
+    let shape = arrays.first().map(|array| array.dataset.shape());
+    let component = |array: &Array| {
+        let plain = names::plain(&array.name);
+        ["x", "y", "z"].contains(&plain.as_str()) && Some(array.dataset.shape()) == shape
+    };
+    matches!(arrays.len(), 2 | 3) && arrays.iter().all(component)
 }
 
 /// A search for positions.
@@ -185,6 +211,8 @@ struct Search<'a> {
     seen: Vec<String>,
     /// Links to other files, for messages.
     links: Vec<String>,
+    /// Warnings.
+    told: Vec<String>,
 }
 
 impl Search<'_> {
@@ -201,7 +229,7 @@ impl Search<'_> {
         }
         let (groups, datasets) = group.members().map_err(failed)?;
         self.links.extend(links::external(self.file, group, path).map_err(failed)?);
-        let arrays: Vec<Array> = datasets
+        let mut arrays: Vec<Array> = datasets
             .into_iter()
             .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All).with_unit())
             .collect();
@@ -215,39 +243,112 @@ impl Search<'_> {
             ),
             _ => format!("{path}/{}", array.name),
         }));
+        let bare = groups.is_empty() && are_components(&arrays);
+        let first = self.found.len();
+        if let Some(frames) = self.h5md(&groups) {
+            self.found.push(Found { path: path.into(), frames, bare: false });
+        } else {
+            for inner in &groups {
+                let path = format!("{path}/{}", leaf(inner.name()));
+                self.group(inner, (&path, depth + 1), time)?;
+            }
+            self.take_vectors(path, first, &mut arrays);
+        }
         let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
         if names::may_have_positions(&names) {
             let frames = stacked(&arrays, self.limit)?.unwrap_or_else(|| vec![(time, arrays)]);
-            self.found.push(Found { path: path.into(), frames });
+            self.found.insert(first, Found { path: path.into(), frames, bare });
         }
-        // H5MD: one group per property, with its values in one dataset.
+        Ok(())
+    }
+
+    /// H5MD: one group per property, with its values in one dataset.
+    fn h5md(&self, groups: &[Group]) -> Option<Frames> {
         let value = |group: &Group| {
             let dataset = group.dataset("value").ok()?;
             let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;
             Some((leaf(group.name()), dataset, frames))
         };
-        let position = groups.iter().find(|group| leaf(group.name()) == "position");
-        if let Some((_, _, frames)) = position.and_then(value).filter(|(_, d, _)| d.ndim() == 3) {
-            let all: Vec<_> = groups.iter().filter_map(value).collect();
-            let times = position.and_then(|position| {
-                let dataset = position.dataset("time").ok()?;
-                numbers(&dataset, type_of(&dataset), &Rows::All, self.limit).ok()
+        let position = groups.iter().find(|group| leaf(group.name()) == "position")?;
+        let (_, _, frames) = value(position).filter(|(_, dataset, _)| dataset.ndim() == 3)?;
+        let all: Vec<_> = groups.iter().filter_map(value).collect();
+        let times = position
+            .dataset("time")
+            .ok()
+            .and_then(|dataset| numbers(&dataset, type_of(&dataset), &Rows::All, self.limit).ok());
+        let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
+            let own = all.iter().filter(|(_, _, count)| *count > frame);
+            let arrays = own.map(|(name, dataset, _)| {
+                Array::new(name, dataset.clone(), Rows::Frame(frame)).with_unit()
             });
-            let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
-                let own = all.iter().filter(|(_, _, count)| *count > frame);
-                let arrays = own.map(|(name, dataset, _)| {
-                    Array::new(name, dataset.clone(), Rows::Frame(frame)).with_unit()
-                });
-                (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
-            });
-            self.found.push(Found { path: path.into(), frames: frames.collect() });
-            return Ok(());
+            (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
+        });
+        Some(frames.collect())
+    }
+
+    /// Adds vectors to the arrays of a group, if each is a group of its components. Such groups are vectors if one of
+    /// them has the name of positions, or, if the group itself has positions, the name of velocities; otherwise they
+    /// may be particles of several kinds. `first` is the index of the first group that was found inside this one.
+    fn take_vectors(&mut self, path: &str, first: usize, arrays: &mut Vec<Array>) {
+        let inside = self.found.get(first..).unwrap_or_default();
+        let bare = |found: &Found| {
+            let around = found.path.rsplit_once('/').map(|(around, _)| around);
+            found.bare && around == Some(path)
+        };
+        let is_position = |found: &&Found| bare(found) && names::is_position(&leaf(&found.path));
+        let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
+        let vector = |array: &Array| {
+            array.dataset.ndim() > 1 && matches!(array.dataset.shape().last(), Some(2 | 3))
+        };
+        let whole =
+            |array: &&Array| names::is_position(&array.name) && (vector(array) || array.turned());
+        let own = match arrays.iter().find(whole) {
+            None if names::have_positions(&names) => {
+                arrays.iter().find(|array| names::is_component(&array.name))
+            }
+            whole => whole,
+        };
+        // Number of values of a component, in all frames together.
+        let values = match (own, inside.iter().find(is_position)) {
+            (Some(own), _) if own.turned() => Some(own.shape().0),
+            (Some(own), _) if vector(own) => {
+                own.dataset.shape().split_last().map(|(_, shape)| product(shape))
+            }
+            (Some(own), _) => Some(product(own.dataset.shape())),
+            (None, Some(position)) => position.values(),
+            (None, None) => return,
+        };
+        let has_own = own.is_some();
+        let velocity = |name: &str| names::is_vector(name) && !names::is_position(name);
+        let mut passed = Vec::new();
+        let mut at = first;
+        while let Some(found) = self.found.get(at) {
+            let name = leaf(&found.path);
+            if !bare(found) || (has_own && !velocity(&name)) {
+                at += 1;
+                continue;
+            }
+            let found = self.found.remove(at);
+            if found.values() != values {
+                passed.push(found.path);
+                continue;
+            }
+            if names::plain(&name) == "positionoffset" {
+                let told = format!("`{}` is not added to the positions", found.path);
+                self.told.push(told);
+            }
+            let components = found.frames.into_iter().take(1).flat_map(|(_, arrays)| arrays);
+            arrays.extend(components.map(|array| {
+                let name = format!("{name}_{}", array.name);
+                Array::new(&name, array.dataset, Rows::All)
+            }));
         }
-        for inner in &groups {
-            let path = format!("{path}/{}", leaf(inner.name()));
-            self.group(inner, (&path, depth + 1), time)?;
+        if !passed.is_empty() {
+            let passed = listed(passed.iter().map(String::as_str));
+            self.told.push(format!(
+                "not read, because their number of values is not that of the positions beside them: {passed}"
+            ));
         }
-        Ok(())
     }
 
     /// The time in a dataset of one value.
