@@ -114,7 +114,7 @@ pub struct Particles {
     /// them repeat (more in a file in which positions repeat too).
     pub ids: Option<Vec<u32>>,
     /// Remaining lifetime of whitewater particles. A particle whose lifetime is zero or less dies with the next
-    /// frame.
+    /// frame. Where a file has the attributes `life` and `age`, as Houdini writes them, it is their difference.
     pub lifetimes: Option<Vec<f32>>,
     /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other whole numbers up to 2^32 - 1 are kept; if any
     /// value is not such a number, all kinds are dropped with a warning.
