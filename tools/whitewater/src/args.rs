@@ -156,8 +156,8 @@ pub struct RenderArgs {
     /// times; without times 30]
     ///
     /// A frame is the usual step between the numbers in the files' names: files numbered 0, 10, 20 are one frame apart.
-    /// The rate sets how fast foam forms and decays, how much whitewater 'generate' emits, how fast a film plays, the
-    /// motion layer, and velocities that are estimated from the sequence.
+    /// The rate sets how fast foam forms and decays, how much whitewater 'generate' emits, how fast the sea and small
+    /// waves move, how fast a film plays, the motion layer, and velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Draw whitewater particles (spray, foam and bubbles) from files, or 'generate' them
@@ -418,8 +418,8 @@ pub struct DrawArgs {
     #[arg(long, value_enum)]
     pub noise: Option<NoiseArg>,
     /// Shadows besides those of the scene on itself, which are always drawn: all (scene, water and foam cast them,
-    /// with caustics), scene (the scene alone casts them: on foam and spray, and it hides the sun's highlights on
-    /// water), or none [default: all; scene with --look thesis]
+    /// with caustics), scene (only the scene casts them, on foam and spray; where it hides the sun, water has no
+    /// highlight), or none [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
     pub shadows: Option<ShadowArg>,
     /// How particles are rasterized: by a compute shader or as sprites (raster) [default: compute]

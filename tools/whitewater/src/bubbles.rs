@@ -403,6 +403,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let LightVolume { center, radius } = lit.region();
     let count = blobs.blobs.len();
     let bubbles = file.bubbles.config().with(|it| it.crossfade = false);
+    let fps = args.fps.unwrap_or(FPS);
     let look = Look {
         camera,
         settings,
@@ -420,9 +421,10 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         exposure: 0.0,
         spray: false,
         region: LightVolume { center, radius: 1.5 * radius },
-        fps: Some(args.fps.unwrap_or(FPS)),
-        rate: None,
-        film: args.fps.unwrap_or(FPS) / args.every.get() as f32,
+        fps: Some(fps),
+        clock: Some(fps),
+        rate: Some(fps),
+        film: fps / args.every.get() as f32,
         fullest: 1,
     };
     let (frames, mut progress) = session::unfinished(&args.draw, &checked.0, frames);

@@ -387,6 +387,14 @@ impl CameraFile {
     }
 }
 
+/// Depth of a point along the direction of view; `None` if it is not in front of the eye.
+pub fn depth(camera: &Camera, point: [f32; 3]) -> Option<f32> {
+    // 1 or -1: whether depth grows along the view-space z axis.
+    let along = camera.projection_matrix().z_axis.w.signum();
+    let depth = along * camera.view_matrix().transform_point3(point.into()).z;
+    (depth.is_finite() && depth > 0.0).then_some(depth)
+}
+
 /// Projects points for a camera whose horizon is level.
 struct Framing {
     /// Points to the right, up, and towards the eye.
@@ -651,6 +659,23 @@ mod tests {
             let eye = -(camera.view_matrix() * Vec4::new(0.1, 0.2, 0.3, 1.0)).z;
             assert!((lens.eye_depth(clip.z / clip.w) - eye).abs() < 1e-4 * eye);
             assert_eq!(lens.eye_depth(0.0), whitewater::io::picture::EMPTY);
+        }
+    }
+
+    #[test]
+    fn depth_is_along_the_view() {
+        let file = CameraFile {
+            eye: Some([1.0, 2.0, 3.0]),
+            target: Some([1.0, 2.0, -1.0]),
+            ..CameraFile::default()
+        };
+        let right = file.camera((300, 200)).unwrap();
+        // The same view, with depth along z.
+        let view = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0)) * right.view_matrix();
+        let left = Camera::of(view, Mat4::perspective_lh(0.7, 1.5, 0.1, 100.0));
+        for camera in [right, left] {
+            assert_eq!(depth(&camera, [7.0, 5.0, -1.0]), Some(4.0));
+            assert_eq!(depth(&camera, [1.0, 2.0, 5.0]), None, "behind the eye");
         }
     }
 

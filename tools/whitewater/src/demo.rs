@@ -106,6 +106,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         spray,
         region,
         fps,
+        clock: None,
         rate,
         film: crate::reader::DEFAULT_FPS,
         fullest: count,

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use glam::Vec3;
 use whitewater::io::particles::sequence::Frame;
-use whitewater::io::particles::{self, Extra, Particles, same_name};
+use whitewater::io::particles::{self, AttributeType, Extra, Particles, same_name};
 
 use crate::arrays;
 use crate::failure::{Failure, Outcome};
-use crate::fluids::Fluids;
+use crate::fluids::{self, Fluids};
 use crate::radii::{DIAMETERS, RADII, UNSURE};
 
 /// Names of attributes that distinguish several fluids (phases), or walls from water.
@@ -142,16 +142,26 @@ impl Condition {
         )))
     }
 
-    /// Whether a value satisfies the comparison.
-    pub fn holds(&self, value: f64) -> bool {
-        match self.compare {
-            Compare::Is => value == self.value,
-            Compare::IsNot => value != self.value,
-            Compare::Less => value < self.value,
-            Compare::More => value > self.value,
-            Compare::AtMost => value <= self.value,
-            Compare::AtLeast => value >= self.value,
-        }
+    /// For each particle whether its value satisfies the comparison; errors as [`values`](Self::values).
+    pub fn holds(&self, particles: &Particles, what: &str, path: &Path) -> Outcome<Vec<bool>> {
+        let values = self.values(particles, what, path)?;
+        // In 32 bits 0.1 is another number than in 64, and what is compared is what the user has written there.
+        let single = particles.attributes.iter().any(|attribute| {
+            let base = self.name.rsplit_once(':').map_or(self.name.as_str(), |(base, _)| base);
+            let same = same_name(&attribute.name, &self.name)
+                || attribute.components > 1 && same_name(&attribute.name, base);
+            same && attribute.ty == AttributeType::F32
+        });
+        let limit = if single { f64::from(self.value as f32) } else { self.value };
+        let holds = |value: &f64| match self.compare {
+            Compare::Is => *value == limit,
+            Compare::IsNot => *value != limit,
+            Compare::Less => *value < limit,
+            Compare::More => *value > limit,
+            Compare::AtMost => *value <= limit,
+            Compare::AtLeast => *value >= limit,
+        };
+        Ok(values.iter().map(holds).collect())
     }
 }
 
@@ -189,28 +199,48 @@ pub fn read(
     Ok(all)
 }
 
-/// Keeps the particles for which all conditions hold.
-pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) -> Outcome<()> {
+/// Keeps the particles for which all conditions hold. A condition is not applied to the files of a `--fluid` that lack
+/// its attribute. If no particle is left, the result says why.
+pub fn select(
+    particles: &mut Particles,
+    conditions: &[Condition],
+    path: &Path,
+) -> Outcome<Option<String>> {
     let count = particles.positions.len();
-    let mut kept = vec![true; count];
+    let (mut kept, mut none) = (vec![true; count], None);
     for condition in conditions {
         let what = format!("--where '{}'", condition.text);
+        let others = fluids::by_file(particles).is_some_and(|fluids| !fluids.contains(&0.0));
+        if others && find(particles, &condition.name).is_none() {
+            continue;
+        }
         let values = condition.values(particles, &what, path)?;
-        kept.iter_mut().zip(values).for_each(|(kept, value)| *kept &= condition.holds(*value));
-        if !kept.contains(&true) {
+        let lacks = lacking(particles, values);
+        let holds = condition.holds(particles, &what, path)?;
+        let each = kept.iter_mut().zip(holds).enumerate();
+        each.for_each(|(i, (kept, holds))| *kept &= holds || lacks(i));
+        if count > 0 && none.is_none() && !kept.contains(&true) {
             let found = whole(values).map_or(String::new(), |values| {
                 format!(", whose values are {}", list(values.keys().map(|v| number(*v))))
             });
-            let path = path.display();
-            return Err(Failure::input(format!(
-                "{what}: {path}: expected some of the {count} particles, found none{found}"
-            )));
+            none =
+                Some(format!("{what}: expected some of the {count} particles, found none{found}"));
         }
     }
     if kept.contains(&false) {
         particles.retain(&kept);
     }
-    Ok(())
+    Ok(none)
+}
+
+/// Tells by a particle's index whether it is from files that lack the attribute with these values, which are then NaN.
+/// Without files of a `--fluid` none is.
+fn lacking<'p>(particles: &'p Particles, values: &'p [f64]) -> impl Fn(usize) -> bool + 'p {
+    let fluids = fluids::by_file(particles);
+    let both = fluids.into_iter().flatten().zip(values);
+    let have: HashSet<u64> =
+        both.filter(|(_, value)| !value.is_nan()).map(|(fluid, _)| *fluid as u64).collect();
+    move |i| fluids.is_some_and(|fluids| !have.contains(&(fluids[i] as u64)))
 }
 
 /// An attribute that was requested by name.
@@ -347,6 +377,7 @@ pub fn without_copies(particles: &mut Particles) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use whitewater::io::particles::Attribute;
 
     #[test]
     fn conditions_are_parsed() {
@@ -384,12 +415,49 @@ mod tests {
             let mut particles = walls();
             let conditions: Vec<_> = text.split(' ').map(|text| condition(text).unwrap()).collect();
             assert!(told_of(&conditions).is_empty() || !text.contains("type"));
-            select(&mut particles, &conditions, path).map(|()| particles.positions.len())
+            let left = select(&mut particles, &conditions, path).map(|told| {
+                assert_eq!(told.is_some(), particles.positions.is_empty());
+                assert!(told.is_none_or(|told| told.contains("values are 0 and 3")));
+            });
+            left.map(|()| particles.positions.len())
         };
         assert_eq!(select("type=3").unwrap(), 3);
         assert_eq!(select("type!=3").unwrap(), 7);
-        assert!(select("type=9").unwrap_err().message.contains("values are 0 and 3"));
+        assert_eq!(select("type=9").unwrap(), 0);
+        assert_eq!(select("type=9 type=3").unwrap(), 0);
         assert!(select("mk=1").unwrap_err().message.contains("attribute `mk`"));
+    }
+
+    /// A number is compared as the attribute stores it.
+    #[test]
+    fn numbers_of_32_bits_equal_decimals() {
+        let count = |text: &str, ty: AttributeType| {
+            let mut particles = walls();
+            particles.extras[0].values = vec![f64::from(0.1_f32); 10];
+            particles.attributes = vec![Attribute { name: "type".into(), components: 1, ty }];
+            select(&mut particles, &[condition(text).unwrap()], Path::new("a.ply")).unwrap();
+            particles.positions.len()
+        };
+        for (text, left) in [("type=0.1", 10), ("type<=0.1", 10), ("type>0.1", 0)] {
+            assert_eq!(count(text, AttributeType::F32), left, "{text}");
+        }
+        assert_eq!(count("type=0.1", AttributeType::F64), 0);
+    }
+
+    /// The files of a fluid need not have the attribute that selects particles of the inputs.
+    #[test]
+    fn fluids_without_the_attribute_are_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        std::fs::write(at("water_1.csv"), "x,y,z,Type\n0,0,0,1\n1,0,0,2\n").unwrap();
+        std::fs::write(at("oil_1.csv"), "x,y,z\n0,1,0\n").unwrap();
+        let arg = fluids::fluid(&format!("{}:honey", at("oil_*.csv"))).unwrap();
+        let mut frames = crate::frames::expand(&[at("water_1.csv")], false).unwrap();
+        let (fluids, _) = Fluids::find(&[arg], &mut frames).unwrap();
+        let conditions = [condition("Type=1").unwrap()];
+        let mut all = read(&frames[0], &conditions, &fluids, None).unwrap();
+        assert_eq!(select(&mut all, &conditions, Path::new("water_1.csv")).unwrap(), None);
+        assert_eq!(all.positions, [[0.0; 3], [0.0, 1.0, 0.0]]);
     }
 
     #[test]

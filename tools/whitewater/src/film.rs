@@ -137,7 +137,17 @@ impl Film {
     }
 
     /// Writes the frames so far.
-    fn write(&self, to: impl Write) -> io::Result<()> {
+    fn write(&self, mut to: impl Write) -> io::Result<()> {
+        if self.frames.len() != 1 {
+            return self.mux(to);
+        }
+        let mut bytes = Vec::new();
+        self.mux(&mut bytes)?;
+        lasting(&mut bytes, self.fps);
+        to.write_all(&bytes)
+    }
+
+    fn mux(&self, to: impl Write) -> io::Result<()> {
         let (width, height) = (self.size.0 as u32, self.size.1 as u32);
         let fps = f64::from(self.fps);
         let box_error = |error: &dyn std::fmt::Display| io::Error::other(error.to_string());
@@ -149,6 +159,44 @@ impl Film {
             muxer.write_video(i as f64 / fps, frame, *key).map_err(|error| box_error(&error))?;
         }
         muxer.finish().map_err(|error| box_error(&error))
+    }
+}
+
+/// Sets the duration of a film of one frame. The muxer takes that of the last frame from the one before it; without one
+/// it is a tick of 1/90000 s, too short for a player. (ISO 14496-12, boxes `mvhd`, `tkhd`, `mdhd` and `stts`.)
+fn lasting(bytes: &mut [u8], fps: f32) {
+    const MOVIE_TICKS: f64 = 1000.0;
+    const MEDIA_TICKS: f64 = 90_000.0;
+    let ticks = |rate: f64| (rate / f64::from(fps)).round().max(1.0) as u32;
+    // The boxes stand in `moov`, before or after the frame's bytes.
+    let Some(moov) = top_level(bytes, b"moov") else { return };
+    let Some(moov) = bytes.get_mut(moov) else { return };
+    // Index of the word in the box, after its version and flags.
+    for (kind, index, rate) in [
+        (b"mvhd", 3, MOVIE_TICKS),
+        (b"tkhd", 4, MOVIE_TICKS),
+        (b"mdhd", 3, MEDIA_TICKS),
+        (b"stts", 2, MEDIA_TICKS),
+    ] {
+        let Some(at) = moov.windows(4).position(|word| word == kind) else { continue };
+        let from = at + 8 + 4 * index;
+        if let Some(word) = moov.get_mut(from..from + 4) {
+            word.copy_from_slice(&ticks(rate).to_be_bytes());
+        }
+    }
+}
+
+/// Where a box of a file lies.
+fn top_level(bytes: &[u8], kind: &[u8; 4]) -> Option<std::ops::Range<usize>> {
+    let mut at = 0;
+    loop {
+        let head = bytes.get(at..at + 8)?;
+        let size = u32::from_be_bytes(head[..4].try_into().ok()?) as usize;
+        if head[4..] == *kind {
+            return Some(at..at + size);
+        }
+        // Sizes below 8 have a meaning of their own, which the muxer does not use.
+        at += size.max(8);
     }
 }
 
@@ -208,6 +256,22 @@ mod tests {
         ] {
             assert_eq!(planes(&[rgb; 4], 2), [y, y, y, y, cb, cr], "{rgb:?}");
         }
+    }
+
+    /// A single frame lasts as long as one of several.
+    #[test]
+    fn a_film_of_one_frame_lasts() {
+        let mut film = Film::new((32, 16), 24.0).unwrap();
+        film.push(&[[0.5; 3]; 32 * 16]).unwrap();
+        let mut bytes = Vec::new();
+        film.write(&mut bytes).unwrap();
+        let word = |kind: &[u8], index: usize| {
+            let from = bytes.windows(4).position(|w| w == kind).unwrap() + 8 + 4 * index;
+            u32::from_be_bytes(bytes[from..from + 4].try_into().unwrap())
+        };
+        assert_eq!([word(b"stts", 1), word(b"stts", 2)], [1, 3750]);
+        assert_eq!([word(b"mdhd", 2), word(b"mdhd", 3)], [90_000, 3750]);
+        assert_eq!([word(b"mvhd", 2), word(b"mvhd", 3), word(b"tkhd", 4)], [1000, 42, 42]);
     }
 
     /// Decoding the file gives the frames that were encoded, at their rate.

@@ -12,20 +12,25 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use glam::Vec3;
 use whitewater::headless::{Background, Headless, Picture};
 use whitewater::io::particles::sequence::Frame;
 use whitewater::io::particles::{Extra, Particles};
 use whitewater::io::picture::EMPTY;
-use whitewater::water::Fresnel;
+use whitewater::water::{Fresnel, SurfaceNoiseSettings};
 use whitewater::{Camera, Settings};
 
+use crate::bounds::Bounds;
 use crate::extras::{self, Condition};
 use crate::failure::{Failure, Outcome};
 use crate::frames;
-use crate::settings::{MediumName, SettingsFile};
+use crate::looks;
+use crate::settings::{MediumName, SettingsFile, take_back};
 
 /// Attribute with the index of each particle's fluid. No file can contain this name.
 const FLUID: &str = "\0fluid";
+/// Attribute with 1 for each particle of the fluid that emits whitewater, 0 for the others.
+const EMITS: &str = "\0emits";
 
 /// `WHICH:LIQUID`.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,13 +200,10 @@ impl Fluids {
             None => vec![0.0; particles.positions.len()],
         };
         for (fluid, condition) in self.conditions() {
-            let values = condition.values(
-                particles,
-                &format!("--fluid '{}'", self.args[fluid - 1].text),
-                path,
-            )?;
-            for (of, value) in fluids.iter_mut().zip(values) {
-                if *of == 0.0 && condition.holds(*value) {
+            let what = format!("--fluid '{}'", self.args[fluid - 1].text);
+            let holds = condition.holds(particles, &what, path)?;
+            for (of, holds) in fluids.iter_mut().zip(holds) {
+                if *of == 0.0 && holds {
                     *of = fluid as f64;
                 }
             }
@@ -214,8 +216,12 @@ impl Fluids {
         let mut order: Vec<usize> = (0..kept.len()).filter(|i| kept[*i]).collect();
         order.sort_by(|a, b| fluids[*a].total_cmp(&fluids[*b]));
         reorder(particles, &order);
-        let values = order.iter().map(|i| fluids[*i]).collect();
+        let values: Vec<f64> = order.iter().map(|i| fluids[*i]).collect();
+        // The same fluid in all frames, also where it has no particles.
+        let emits = usize::from(self.conditions().next().is_some()) as f64;
+        let emits = values.iter().map(|fluid| f64::from(*fluid == emits)).collect();
         particles.extras.push(Extra { name: FLUID.into(), values });
+        particles.extras.push(Extra { name: EMITS.into(), values: emits });
         if lost > 0 {
             particles.warnings.push(format!(
                 "{lost} of {} particles belong to no --fluid and are not drawn",
@@ -242,9 +248,14 @@ impl Fluids {
     }
 
     /// Returns the settings of each fluid, that of the inputs first; empty without `--fluid`. `all` is the look of
-    /// the inputs, which each `--fluid` modifies; `densities` are the rest densities of the fluids, if the files have
-    /// them.
-    pub fn settings(&self, all: &Settings, densities: &[Option<f32>]) -> Outcome<Vec<Settings>> {
+    /// the inputs, which each `--fluid` modifies, and `file` the settings file that it is from; `densities` are the
+    /// rest densities of the fluids, if the files have them.
+    pub fn settings(
+        &self,
+        all: &Settings,
+        file: &SettingsFile,
+        densities: &[Option<f32>],
+    ) -> Outcome<Vec<Settings>> {
         let rest = |fluid: usize| {
             let mut own = all.clone();
             let density = densities.get(fluid).copied().flatten();
@@ -254,18 +265,24 @@ impl Fluids {
         if self.args.is_empty() {
             return Ok(Vec::new());
         }
+        let bare = without_liquid(all, file);
         let mut settings = vec![rest(0)];
         for (i, arg) in self.args.iter().enumerate() {
             let mut own = rest(i + 1);
             match &arg.look {
                 Look::Water => {}
                 Look::Named(name) => {
+                    take_back(&mut own, &bare);
                     name.liquid().put(&mut own);
                     own.water.medium = name.medium(own.water.spacing);
                 }
                 Look::File(path) => {
                     let spacing = own.water.spacing;
-                    SettingsFile::read(path)?.apply(&mut own);
+                    let file = SettingsFile::read(path)?;
+                    if file.water.liquid().is_some() {
+                        take_back(&mut own, &bare);
+                    }
+                    file.apply(&mut own);
                     own.water.spacing = spacing;
                 }
             }
@@ -273,6 +290,29 @@ impl Fluids {
         }
         Ok(settings)
     }
+}
+
+/// The look of the inputs without the foam and the surface of their own liquid, which another liquid does not inherit.
+/// Only the values that a liquid sets are right.
+fn without_liquid(all: &Settings, file: &SettingsFile) -> Settings {
+    if file.water.liquid().is_none() {
+        return all.clone();
+    }
+    let mut bare = file.look(all.water.spacing, all.light);
+    if !file.is_thesis() {
+        let any = Bounds { min: Vec3::ZERO, max: Vec3::ONE };
+        looks::foam_of_caches(&mut bare.surface_foam, all.water.spacing);
+        looks::waves_of_caches(&mut bare.water, all.water.spacing, &any);
+    }
+    // A thick liquid takes all noise away only if the noise is that of water in the air.
+    bare.noise = all.noise;
+    if bare.noise.weight == 0.0 {
+        bare.noise.weight = SurfaceNoiseSettings::AIRBORNE.weight;
+    }
+    let mut file = file.clone();
+    file.water.medium = None;
+    file.apply(&mut bare);
+    bare
 }
 
 /// The range of frame numbers in words.
@@ -309,11 +349,20 @@ pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
     (0..count).map(|fluid| at(fluid)..at(fluid + 1)).collect()
 }
 
-/// Index range of the particles of the first fluid that has any, where `count` is the number of fluids; `None` if
-/// there is only one fluid or no particle.
-pub fn first(particles: &Particles, count: usize) -> Option<Range<u32>> {
-    let several = if count < 2 { Vec::new() } else { ranges(particles, count) };
-    several.into_iter().find(|range| !range.is_empty())
+/// Index range of the particles of the fluid that emits whitewater, after [`Fluids::divide`]: the inputs, or the first
+/// `--fluid` if any is a comparison. Empty if that fluid has none in this frame; `None` without `--fluid`.
+pub fn emitting(particles: &Particles) -> Option<Range<u32>> {
+    let own = particles.extras.iter().find(|extra| extra.name == EMITS)?;
+    // The fluids lie one after the other.
+    let start = own.values.iter().position(|emits| *emits > 0.0).unwrap_or(0);
+    let count = own.values.iter().filter(|emits| **emits > 0.0).count();
+    Some(start as u32..(start + count) as u32)
+}
+
+/// The fluid of each particle by its file, before [`Fluids::divide`]; `None` if all particles are of the inputs.
+pub fn by_file(particles: &Particles) -> Option<&[f64]> {
+    let own = particles.extras.iter().find(|extra| extra.name == FLUID)?;
+    own.values.iter().any(|fluid| *fluid > 0.0).then_some(own.values.as_slice())
 }
 
 /// The liquids of a frame.
@@ -512,6 +561,34 @@ mod tests {
         assert_eq!((all.ids.unwrap().len(), none.count(), none.drawn()), (6, 1, 1));
     }
 
+    /// A named liquid has its own foam and surface, not those of the inputs' liquid, but keeps what the file sets.
+    #[test]
+    fn a_liquid_inherits_no_other_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("honey.toml");
+        let tables = "[water]\nmedium = \"honey\"\n[surface_foam]\nback_color = [0.1, 0.2, 0.3]\n";
+        std::fs::write(&path, tables).unwrap();
+        let file = SettingsFile::read(&path).unwrap();
+        let mut plain = file.look(0.1, Settings::default().light);
+        plain.noise = SurfaceNoiseSettings::AIRBORNE;
+        looks::foam_of_caches(&mut plain.surface_foam, 0.1);
+        plain.water.wavelets.slope = 0.08;
+        let mut all = plain.clone();
+        file.apply(&mut all);
+        let args = ["T=1:water", "T=2:clear", "T=3:beer"].map(|text| fluid(text).unwrap());
+        let (fluids, _) = Fluids::find(&args, &mut []).unwrap();
+        let found = fluids.settings(&all, &file, &[]).unwrap();
+        assert_eq!(found[1], all);
+        let [clear, beer] = [&found[2], &found[3]];
+        assert_eq!(clear.water.fresnel, plain.water.fresnel);
+        assert_eq!(clear.surface_foam.front_color, plain.surface_foam.front_color);
+        assert_eq!(clear.surface_foam.back_color, [0.1, 0.2, 0.3]);
+        assert_eq!((clear.spray.color, clear.noise), (plain.spray.color, plain.noise));
+        assert_eq!(clear.water.wavelets.slope, 0.08);
+        assert_ne!(beer.surface_foam.front_color, all.surface_foam.front_color);
+        assert_eq!(beer.water.wavelets.slope, 0.08);
+    }
+
     #[test]
     fn files_of_other_fluids_belong_to_the_frames() {
         let folder = tempfile::tempdir().unwrap();
@@ -525,7 +602,12 @@ mod tests {
         assert!(said.len() == 1 && said[0].contains("1 of 2 frames"), "{said:?}");
         let mut all = extras::read(&frames[0], &[], &fluids, None).unwrap();
         fluids.divide(&mut all, Path::new("water_1.csv")).unwrap();
-        assert_eq!((fluids.drawn(), first(&all, 2), first(&all, 1)), (2, Some(0..1), None));
+        assert_eq!((fluids.drawn(), emitting(&all)), (2, Some(0..1)));
+        // A frame without particles in the inputs emits nothing: the other fluid does not take their place.
+        let mut oil = extras::read(&frames[0], &[], &fluids, None).unwrap();
+        oil.retain(&[false, true]);
+        fluids.divide(&mut oil, Path::new("water_1.csv")).unwrap();
+        assert_eq!((oil.positions.len(), emitting(&oil)), (1, Some(0..0)));
         assert_eq!((all.ids.clone(), ranges(&all, 2)), (Some(vec![14, 15]), vec![0..1, 1..2]));
         let args = [fluid(&format!("{}:honey", at("water_2.csv"))).unwrap()];
         let mut frames = frames::expand(&[at("oil_*.csv"), at("water_1.csv")], true).unwrap();

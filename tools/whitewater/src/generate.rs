@@ -8,6 +8,7 @@ use whitewater::{GeneratorSettings, PotentialRange};
 
 use crate::bounds::Bounds;
 use crate::failure::Outcome;
+use crate::fluids;
 use crate::looks::round;
 use crate::placing::Placing;
 use crate::session::PRE_ROLLED;
@@ -226,7 +227,7 @@ impl Generate {
         Ok(settings)
     }
 
-    /// Calls `act` for each probed frame; returns the number of frames.
+    /// Calls `act` for each probed frame, with the particles of the fluid that emits; returns the number of frames.
     fn each_probe(
         &self,
         headless: &mut Headless,
@@ -237,9 +238,14 @@ impl Generate {
             let Some(velocities) = &frame.velocities else { continue };
             headless.particles(&frame.positions, None)?;
             headless.motion(velocities, frame.ids.as_deref())?;
-            act(headless)?;
             frames += 1;
+            let emitting = fluids::emitting(frame);
+            if emitting.as_ref().is_none_or(|range| !range.is_empty()) {
+                headless.show(emitting);
+                act(headless)?;
+            }
         }
+        headless.show(None);
         Ok(frames)
     }
 }

@@ -414,9 +414,9 @@ pub fn look(
         return Err(Failure::input(why));
     }
     let remembers = sequence.is && (made || foam.is_some() && probes.frames.iter().any(moving));
-    let vectors = sequence.is && sequence.motion;
+    let vectors = sequence.motion && (sequence.is || sequence.still.is_some());
     let film = fps / sequence.film.unwrap_or(1.0);
-    let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
+    let clock = sequence.is.then(|| {
         if args.fps.is_none() {
             let found = if probes.fps.is_some() { "found" } else { "assumed" };
             let fps = round(fps / sequence.step);
@@ -429,8 +429,8 @@ pub fn look(
         fps
     });
     let region = bounds.region();
-    let rate = fps.filter(|_| vectors);
-    let fps = fps.filter(|_| remembers);
+    let rate = vectors.then_some(fps);
+    let fps = clock.filter(|_| remembers);
     let fullest = probes.frames.iter().map(|f| f.positions.len()).max().unwrap_or(0);
     let whitewater = match made {
         true => {
@@ -462,6 +462,7 @@ pub fn look(
         spray,
         region,
         fps,
+        clock,
         rate,
         film,
         fullest,

@@ -183,27 +183,28 @@ impl Split {
         Some(Self { base, most })
     }
 
-    /// Splits the large particles of a frame. Returns the number of particles before the split; `None` if none was
-    /// split.
+    /// Splits the large particles of a frame, and numbers the ids anew, alike in all frames. Returns the number of
+    /// particles before the split; `None` if none was split.
     pub fn apply(&self, particles: &mut Particles) -> Option<usize> {
-        let radii = of(particles)?;
-        let count = radii.len();
+        let count = particles.positions.len();
+        // In a frame without radii none is large.
+        let radii = of(particles).unwrap_or_else(|| vec![self.base; count]);
         let copies = |radius: &f32| copies(*radius, self.base).min(self.most);
         let order: Vec<usize> =
             radii.iter().enumerate().flat_map(|(i, r)| (0..copies(r)).map(move |_| i)).collect();
-        if order.len() == count {
-            return None;
-        }
         let ids = particles.ids.take();
-        reorder(particles, &order);
+        let splits = order.len() > count;
+        if splits {
+            reorder(particles, &order);
+        }
         let mut at = 0;
         let mut own = ids.as_ref().map(|_| Vec::with_capacity(order.len()));
         for (i, radius) in radii.iter().enumerate() {
             let n = copies(radius);
             let id = ids.as_ref().and_then(|ids| ids.get(i).copied());
-            let turn = turn(id.unwrap_or(i as u32));
+            let turn = (n > 1).then(|| turn(id.unwrap_or(i as u32)));
             for k in 0..n {
-                if n > 1
+                if let Some(turn) = turn
                     && let Some(position) = particles.positions.get_mut(at)
                 {
                     let away = turn * (radius * BALL * even(k, n));
@@ -219,7 +220,7 @@ impl Split {
             }
         }
         particles.ids = own;
-        Some(count)
+        splits.then_some(count)
     }
 }
 
@@ -363,6 +364,16 @@ mod tests {
         let mut again = particles(&radii);
         split.apply(&mut again);
         assert_eq!(again.positions, all.positions);
+        // Ids are numbered alike in frames in which none is large, or which have no radii.
+        for lacks in [false, true] {
+            let mut small = particles(&[0.1; 100]);
+            if lacks {
+                small.extras.clear();
+            }
+            assert_eq!(split.apply(&mut small), None);
+            assert_eq!(small.ids.unwrap()[..3], [0, 8, 16]);
+            assert_eq!(small.positions.len(), 100);
+        }
         // The number of particles grows by a factor of eight at most.
         let radii: Vec<f32> = (0..1000).map(|i| if i < 100 { 0.01 } else { 0.2 }).collect();
         let mut many = particles(&radii);

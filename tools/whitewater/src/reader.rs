@@ -1,7 +1,7 @@
 //! Reads the frames of `render` in drawing order: rotated to y-up, with warnings about unusual data, and with
 //! velocities from finite differences if the files have none.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashMap;
 
 use glam::Vec3;
@@ -11,7 +11,7 @@ use whitewater::io::particles::{Particles, estimate_spacing};
 use crate::args::Up;
 use crate::bounds;
 use crate::extras::{self, Condition};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
 use crate::odd::Size;
 use crate::placing::Placing;
@@ -29,6 +29,8 @@ const FAR: f32 = 0.25;
 const LEAST: f32 = 1.0e-4;
 /// Number of particles from which the water's size is estimated.
 const LOOKED_AT: usize = 4096;
+/// Max number of frames that are tried one after the other while they cannot be read.
+const TRIED: usize = 6;
 
 /// Data of a frame for the velocities of the next one.
 struct Known {
@@ -41,6 +43,9 @@ struct Known {
 pub struct Reader<'a> {
     all: &'a [Frame],
     placing: Placing,
+    /// Origin of the positions: that of `placing` or, if it is 0, that of the first frame read that has particles. An
+    /// empty or damaged frame has none.
+    origin: OnceCell<[f64; 3]>,
     conditions: &'a [Condition],
     fluids: &'a Fluids,
     /// The attribute that the user named as radii.
@@ -70,6 +75,8 @@ pub struct Reader<'a> {
     usual_spacing: OnceCell<Option<f32>>,
     /// What is wrong with ids or velocities, as the motion between two frames shows.
     doubt: OnceCell<Motion>,
+    /// Whether the conditions held for a particle of any frame so far. Until then a frame without one is an error.
+    matched: Cell<bool>,
 }
 
 impl<'a> Reader<'a> {
@@ -79,9 +86,12 @@ impl<'a> Reader<'a> {
         (conditions, fluids): (&'a [Condition], &'a Fluids),
         fps: Option<f32>,
     ) -> Self {
+        let known = placing.origin != [0.0; 3];
+        let origin = if known { OnceCell::from(placing.origin) } else { OnceCell::new() };
         Self {
             all,
             placing,
+            origin,
             conditions,
             fluids,
             radius: None,
@@ -97,6 +107,7 @@ impl<'a> Reader<'a> {
             usual: None,
             usual_spacing: OnceCell::new(),
             doubt: OnceCell::new(),
+            matched: Cell::new(false),
         }
     }
 
@@ -136,7 +147,7 @@ impl<'a> Reader<'a> {
                     particles.ids = ids_by_place(&particles, &known);
                 }
                 if !own.velocities {
-                    let seconds = (frame.number as f32 - known.number as f32) / fps;
+                    let seconds = later(frame.number, known.number) / fps;
                     particles.velocities = velocities(&particles, &known, seconds);
                     self.found_velocities |= particles.velocities.is_some();
                 }
@@ -152,24 +163,29 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Frames per second from the times in the names of the first two files, if they are in seconds; else from the times
-    /// stored in these files, or from others in their names, unless those are step numbers.
+    /// Frames per second from the times in the names of two neighbouring files, if they are in seconds; else from the
+    /// times stored in these files, or from others in their names, unless those are step numbers. The two are the first
+    /// ones that can be read.
     pub fn rate(&self) -> Option<f32> {
         *self.by_time.get_or_init(|| self.find_rate())
     }
 
     fn find_rate(&self) -> Option<f32> {
-        let [a, b, ..] = self.all else { return None };
-        let numbers = (b.number - a.number) as f32;
-        let named = a.in_seconds && b.in_seconds;
-        let [first, second] = [a, b].map(|frame| match named {
-            true => frame.time,
-            false => self.as_it_is(frame).ok()?.time.or(frame.time),
-        });
+        let time = |frame: &Frame| {
+            let read = extras::read(frame, self.conditions, self.fluids, self.radius).ok()?;
+            Some(read.time.or(frame.time))
+        };
+        let times = |pair: &[Frame]| {
+            let [a, b] = pair else { return None };
+            let named = a.in_seconds && b.in_seconds;
+            let [first, second] = if named { [a.time, b.time] } else { [time(a)?, time(b)?] };
+            Some((first, second, named, later(b.number, a.number)))
+        };
+        let (first, second, named, numbers) = self.all.windows(2).take(TRIED).find_map(times)?;
         let seconds = (second? - first?) as f32;
-        let least = if named { 0.0 } else { LEAST };
-        // Step numbers differ by whole numbers, and frames that are seconds apart are no film.
-        (seconds > least && seconds < 1.0).then_some(numbers / seconds)
+        // Step numbers differ by whole numbers, so that without a unit only a part of a second is a time.
+        let fits = if named { seconds > 0.0 } else { seconds > LEAST && seconds < 1.0 };
+        fits.then_some(numbers / seconds)
     }
 
     /// The radius that larger particles are split to; `None` if radii are alike.
@@ -198,6 +214,11 @@ impl<'a> Reader<'a> {
     pub fn turn(&mut self, up: Up) {
         self.placing.up = up;
         self.last = None;
+    }
+
+    /// Origin of the positions of all frames, once one with particles was read; before that 0.
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin.get().copied().unwrap_or_default()
     }
 
     /// Sets the rate for estimated velocities, if velocities are estimated.
@@ -235,7 +256,18 @@ impl<'a> Reader<'a> {
     /// Reads a frame without estimated attributes and without warnings about missing ones.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
         let mut particles = extras::read(frame, self.conditions, self.fluids, self.radius)?;
-        extras::select(&mut particles, self.conditions, &frame.path)?;
+        if !particles.positions.is_empty() {
+            let _ = self.origin.set(particles.origin);
+        }
+        match extras::select(&mut particles, self.conditions, &frame.path)? {
+            // Probably a wrong value.
+            Some(why) if !self.matched.get() => {
+                return Err(Failure::input(format!("{}: {why}", frame.path.display())));
+            }
+            Some(why) => particles.warnings.push(why),
+            None if particles.positions.is_empty() => {}
+            None => self.matched.set(true),
+        }
         let told = extras::told(&particles, self.conditions, self.fluids);
         self.fluids.divide(&mut particles, &frame.path)?;
         let copies = extras::without_copies(&mut particles);
@@ -247,14 +279,18 @@ impl<'a> Reader<'a> {
         }
         if let Some(name) = self.radius {
             radii::take(&mut particles, name, &frame.path)?;
-        } else if extras::find(&particles, radii::UNSURE).is_some() {
+        } else if !particles.positions.is_empty()
+            && extras::find(&particles, radii::UNSURE).is_some()
+        {
             match self.unsure.get_or_init(|| radii::unsure(&particles)) {
                 Some(Ok(())) => radii::take(&mut particles, radii::UNSURE, &frame.path)?,
                 Some(Err(why)) => particles.warnings.push(radii::unused(why)),
                 None => {}
             }
         }
-        if let Some(split) = self.split.get_or_init(|| Split::of(&particles))
+        // A frame without particles says nothing about the radii of the others.
+        if !particles.positions.is_empty()
+            && let Some(split) = self.split.get_or_init(|| Split::of(&particles))
             && let Some(count) = split.apply(&mut particles)
         {
             particles.warnings.push(format!(
@@ -262,7 +298,7 @@ impl<'a> Reader<'a> {
                 particles.positions.len()
             ));
         }
-        self.placing.place(&mut particles);
+        Placing { origin: self.origin(), ..self.placing }.place(&mut particles);
         if self.drops_ids() {
             particles.ids = None;
         }
@@ -270,24 +306,32 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Reads into `last` the frame before frame `number` or, if that is the first, the next one. If that frame cannot
-    /// be read, the error is reported when it is drawn.
+    /// Reads into `last` the nearest readable frame before frame `number` or, if there is none, after it. If a frame
+    /// cannot be read, the error is reported when it is drawn.
     fn neighbour(&mut self, number: u64) {
-        let before = self.all.iter().filter(|frame| frame.number < number).max_by_key(|f| f.number);
-        let after = self.all.iter().filter(|frame| frame.number > number).min_by_key(|f| f.number);
-        let Some(neighbour) = before.or(after) else {
-            self.last = None;
-            return;
-        };
-        if self.last.as_ref().is_none_or(|last| last.number != neighbour.number) {
-            let known = |Particles { positions, ids, .. }| Known {
-                number: neighbour.number,
-                positions,
-                ids,
-            };
-            self.last = self.as_it_is(neighbour).ok().map(known);
+        let mut before: Vec<&Frame> = self.all.iter().filter(|f| f.number < number).collect();
+        let mut after: Vec<&Frame> = self.all.iter().filter(|f| f.number > number).collect();
+        before.sort_by_key(|frame| std::cmp::Reverse(frame.number));
+        after.sort_by_key(|frame| frame.number);
+        for neighbour in before.into_iter().take(TRIED).chain(after.into_iter().take(TRIED)) {
+            let number = neighbour.number;
+            if self.last.as_ref().is_some_and(|last| last.number == number) {
+                return;
+            }
+            if let Ok(Particles { positions, ids, .. }) = self.as_it_is(neighbour) {
+                self.last = Some(Known { number, positions, ids });
+                return;
+            }
         }
+        self.last = None;
     }
+}
+
+/// How much later a frame is than another one, in frame numbers; negative if it is earlier. Only the difference is
+/// rounded, because numbers above 2^24 are not exact in 32 bits.
+fn later(number: u64, other: u64) -> f32 {
+    let apart = number.abs_diff(other) as f32;
+    if number < other { -apart } else { apart }
 }
 
 /// Attributes that change the picture.
@@ -431,6 +475,101 @@ mod tests {
         now.ids = Some(ids);
         let found = velocities(&now, &known, 0.1).unwrap();
         assert_eq!(found[5], [0.0; 3]);
+    }
+
+    /// Frames of these numbers, each with the text of its file; one without a text has no file.
+    fn frames(folder: &tempfile::TempDir, files: &[(u64, Option<String>)]) -> Vec<Frame> {
+        let of = |(number, text): &(u64, Option<String>)| {
+            let path = folder.path().join(format!("f_{number}.csv"));
+            text.iter().for_each(|text| std::fs::write(&path, text).unwrap());
+            let (number, also) = (*number, Vec::new());
+            Frame { number, time: None, in_seconds: false, path, also, step: None }
+        };
+        files.iter().map(of).collect()
+    }
+
+    /// A block of particles, moved along x by so much; each row ends with `more`.
+    fn rows(names: &str, moved: f64, more: &str) -> Option<String> {
+        let at = |i: u32| [i % 5, i / 5 % 5, i / 25].map(|c| 0.1 * f64::from(c));
+        let row = |[x, y, z]: [f64; 3]| format!("{},{y},{z}{more}\n", x + moved);
+        Some(format!("{names}\n") + &(0..125).map(at).map(row).collect::<String>())
+    }
+
+    /// Differences of large frame numbers are exact, and a frame that cannot be read is passed over.
+    #[test]
+    fn velocities_are_found_from_the_nearest_frame() {
+        let fluids = Fluids::default();
+        let large = 1 << 24;
+        let file = |moved: f64| rows("x,y,z", moved, "");
+        for (files, expected) in [
+            ([(large + 1, file(0.0)), (large + 2, file(0.01)), (large + 3, file(0.02))], 0.1),
+            ([(1, file(0.0)), (2, None), (3, file(0.02))], 0.1),
+            ([(1, None), (3, file(0.0)), (4, file(0.02))], 0.2),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let all = frames(&folder, &files);
+            for frame in &all[1..] {
+                let mut reader = Reader::new(&all, Placing::default(), (&[], &fluids), Some(10.0));
+                let Ok(read) = reader.read(frame) else { continue };
+                let found = read.velocities.unwrap();
+                assert!(nearly(&found, [expected, 0.0, 0.0]), "{}: {:?}", frame.number, found[0]);
+            }
+        }
+    }
+
+    /// Without its first frame a sequence has the same rate. Times whose unit is named may be seconds apart.
+    #[test]
+    fn the_rate_is_that_of_readable_frames() {
+        let folder = tempfile::tempdir().unwrap();
+        let fluids = Fluids::default();
+        let at = |time: &str| rows("x,y,z,time", 0.0, &format!(",{time}"));
+        let mut all = frames(&folder, &[(1, None), (2, at("0.04")), (3, at("0.08"))]);
+        let rate =
+            |all: &[Frame]| Reader::new(all, Placing::default(), (&[], &fluids), None).rate();
+        assert!((rate(&all).unwrap() - 25.0).abs() < 1.0e-3, "{:?}", rate(&all));
+        for (frame, time) in all.iter_mut().zip([1.0, 3.0, 5.0]) {
+            (frame.time, frame.in_seconds) = (Some(time), true);
+        }
+        assert_eq!(rate(&all), Some(0.5));
+        all.iter_mut().for_each(|frame| frame.in_seconds = false);
+        std::fs::write(&all[1].path, rows("x,y,z", 0.0, "").unwrap()).unwrap();
+        std::fs::write(&all[2].path, rows("x,y,z", 0.0, "").unwrap()).unwrap();
+        assert_eq!(rate(&all), None, "numbers without a unit");
+    }
+
+    /// An empty first frame decides nothing: neither whether radii differ nor where the water is.
+    #[test]
+    fn an_empty_frame_decides_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let fluids = Fluids::default();
+        let mut full = rows("x,y,z,radius", 1.0e6, ",0.05").unwrap();
+        (0..20).for_each(|i| full += &format!("1000002,{i},0,0.1\n"));
+        let empty = Some("x,y,z,radius\n".to_string());
+        let all = frames(&folder, &[(1, None), (2, empty), (3, Some(full))]);
+        let reader = Reader::new(&all, Placing::default(), (&[], &fluids), None);
+        assert!(reader.as_it_is(&all[0]).is_err());
+        assert!(reader.as_it_is(&all[1]).unwrap().positions.is_empty());
+        let read = reader.as_it_is(&all[2]).unwrap();
+        assert!(read.warnings.iter().any(|told| told.contains("are split into")));
+        assert!(reader.base().is_some() && (reader.origin()[0] - 1.0e6).abs() < 1.0e4);
+        let apart = read.positions[1][0] - read.positions[0][0];
+        assert!((apart - 0.1).abs() < 1.0e-3, "{apart}");
+    }
+
+    /// If no particle matches `--where`, that is an error, unless some did in another frame.
+    #[test]
+    fn a_frame_without_a_match_is_empty() {
+        let folder = tempfile::tempdir().unwrap();
+        let fluids = Fluids::default();
+        let of = |number: &str| rows("x,y,z,Type", 0.0, &format!(",{number}"));
+        let all = frames(&folder, &[(1, of("1")), (2, of("2")), (3, of("1"))]);
+        let conditions = [extras::condition("Type=2").unwrap()];
+        let reader = Reader::new(&all, Placing::default(), (&conditions, &fluids), None);
+        let error = reader.as_it_is(&all[0]).unwrap_err();
+        assert!(error.message.contains("f_1.csv: --where 'Type=2'"), "{}", error.message);
+        assert_eq!(reader.as_it_is(&all[1]).unwrap().positions.len(), 125);
+        let none = reader.as_it_is(&all[2]).unwrap();
+        assert!(none.positions.is_empty() && none.warnings[0].contains("found none"));
     }
 
     #[test]

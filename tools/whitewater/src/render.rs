@@ -1,5 +1,8 @@
 //! `whitewater render`: particle files to pictures, one or a sequence.
 
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
 use whitewater::Settings;
 use whitewater::io::particles;
 use whitewater::io::particles::sequence::{self, Frame};
@@ -66,13 +69,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         let why = "--write-whitewater: expected --whitewater generate as well; nothing is emitted without it";
         return Err(Failure::usage(why));
     }
-    if let Some(file) =
-        keep.iter().flat_map(|keep| all.iter().find(|f| keep.path(f.number) == f.path)).next()
-    {
-        let why =
-            format!("--write-whitewater: {} is an input; name another file", file.path.display());
-        return Err(Failure::usage(why));
-    }
+    keep_inputs(args, &all, keep.as_ref())?;
     let settings = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, None)?;
     let mut camera = CameraFile::from_args(&args.camera)?;
@@ -87,6 +84,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     for path in checked.0.iter().map(|t| t.path(first)).chain(keep.iter().map(|t| t.path(first))) {
         output::probe(&path)?;
     }
+    let drawn = if still.is_some() { &frames } else { &all };
+    let numbers: Vec<u64> = drawn.iter().map(|frame| frame.number).collect();
     let finished = |frame: &Frame| {
         session::is_finished(&args.draw, &checked.0, frame.number)
             && keep.iter().all(|target| target.is_written(frame.number))
@@ -114,20 +113,15 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     };
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.surface_foam.unwrap_or(Foaming::Auto) != Foaming::None;
-    let moving = made || foams || sequence.motion;
+    let blurs = args.draw.shutter.is_some_and(|seconds| seconds > 0.0);
+    let moving = made || foams || blurs || sequence.motion;
     // Frame numbers may be step numbers; the rate is in numbers per second.
     let step = step_of(&all);
     let said = args.fps.map(|fps| fps * step);
     let fps = moving.then(|| said.unwrap_or(DEFAULT_FPS * step));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
-    // If a frame cannot be read, the error is reported when it is drawn.
-    let origin = |first: &Frame| match first.step {
-        Some(step) => Ok(particles::read_step(&first.path, step, &[])?.origin),
-        None => particles::find_origin(&first.path),
-    };
-    let origin = all.first().and_then(|first| origin(first).ok());
-    let origin = origin.unwrap_or_default();
-    let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
+    let up = args.up_axis.unwrap_or(Up::Y);
+    let mut placing = Placing { up, scale, ..Placing::default() };
     let mut reader = Reader::new(&all, placing, (&args.conditions, &fluids), fps);
     match &args.radius {
         Some(Radius::Of(name)) => reader.take_radii(name),
@@ -137,6 +131,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
+    placing.origin = reader.origin();
     let found = upright::find(&probes.frames, probes.extents());
     let particles = probes.frames.iter().any(|frame| frame.positions.len() > 1);
     // A user who gives a camera knows the up axis.
@@ -153,7 +148,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         ));
         placing.up = up;
         reader.turn(up);
-        probes.place(Placing { up, scale: 1.0, origin });
+        probes.place(Placing { up, scale: 1.0, origin: placing.origin });
     }
     let sheet = upright::flat(probes.extents()).filter(|across| *across != 1);
     if sheet.is_some() {
@@ -217,7 +212,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         foam => foam,
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
-    let several = fluids.settings(&look.settings, &own_densities)?;
+    let several = fluids.settings(&look.settings, &look.file, &own_densities)?;
     let mut look = Look { fluids: several, bubbles: foam, shores, ..look };
     if fluids.drawn() > 1 {
         // At the surface between two liquids light passes into the other liquid, not into air. With the refraction
@@ -227,10 +222,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.placing = placing;
+    session.fluids = made.then_some((&fluids, own_densities));
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     let mut warnings = Warnings::default();
     for frame in &left {
-        match draw(&mut reader, &mut session, &all, frame, (&progress, &mut warnings)) {
+        let before = numbers.iter().copied().filter(|number| *number < frame.number).max();
+        let said = (&progress, &mut warnings);
+        match draw(&mut reader, &mut session, &all, (frame, before), said) {
             Ok(line) => progress.advance(&line),
             Err(failure) if failure.kind == Kind::Input => {
                 progress.advance(&format!("frame {}: {}", frame.number, failure.message));
@@ -250,12 +248,50 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     report(left.len(), failed)
 }
 
-/// Reads one frame, draws it and writes its files.
+/// Fails if a file that is written while the frames are drawn is one that is read, however its path is written.
+fn keep_inputs(
+    args: &RenderArgs,
+    all: &[Frame],
+    keep: Option<&output::Target<particles::WriteFormat>>,
+) -> Outcome<()> {
+    let measured = [("--timings", &args.draw.timings), ("--trace", &args.draw.trace)];
+    let measured = measured.map(|(flag, path)| path.iter().map(move |path| (flag, path.clone())));
+    let of = |keep: &output::Target<_>| all.iter().map(|f| keep.path(f.number)).collect::<Vec<_>>();
+    let made = keep.map(of).unwrap_or_default().into_iter();
+    let written = made.map(|path| ("--write-whitewater", path));
+    // What does not exist is no input. A link is written through.
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    let written: Vec<_> = written
+        .chain(measured.into_iter().flatten())
+        .filter_map(|(flag, path)| Some((flag, real(&path)?, path)))
+        .collect();
+    if written.is_empty() {
+        return Ok(());
+    }
+    let others = [&args.camera.file, &args.scene].into_iter().flatten();
+    let mut inputs: HashSet<PathBuf> = others.filter_map(|path| real(path)).collect();
+    inputs.extend(all.iter().flat_map(|frame| frame.paths()).filter_map(real));
+    for named in &args.whitewater {
+        if let Whitewater::Files { files, .. } = named {
+            let found = frames::files(std::slice::from_ref(files), false)?;
+            inputs.extend(found.iter().flat_map(|frame| frame.paths()).filter_map(real));
+        }
+    }
+    match written.iter().find(|(_, real, _)| inputs.contains(real)) {
+        Some((flag, _, path)) => {
+            let path = path.display();
+            Err(Failure::usage(format!("{flag}: {path} is an input; name another file")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Reads one frame, draws it and writes its files. `before` is the number of the frame before it.
 fn draw(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,
     all: &[Frame],
-    frame: &Frame,
+    (frame, before): (&Frame, Option<u64>),
     (progress, warnings): (&Progress, &mut Warnings),
 ) -> Outcome<String> {
     let began = std::time::Instant::now();
@@ -267,10 +303,9 @@ fn draw(
         }
     }
     if session.remembers() {
-        remember(reader, session, all, frame, particles.positions.len())?;
+        let whitewater = session.open_whitewater(number)?;
+        remember(reader, session, all, frame, (particles.positions.len(), whitewater))?;
     }
-    let before = all.iter().map(|f| f.number).filter(|n| *n < number).max();
-    let before = before.filter(|_| all.len() > 1);
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
     let made = session.made()?.map(|made| made as usize).or(session.read);
@@ -323,15 +358,22 @@ impl Warnings {
 
 /// Runs the foam simulation over all frames of the sequence that are before `frame` and that it has not simulated
 /// yet, so that the result does not depend on which range of frames is drawn. Frames that cannot be read are skipped.
+/// `room` and `whitewater` are the numbers of particles that `frame` needs room for, of water and of whitewater files.
 fn remember(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,
     all: &[Frame],
     frame: &Frame,
-    mut room: usize,
+    (mut room, whitewater): (usize, usize),
 ) -> Outcome<()> {
     loop {
-        session.make_room(room)?;
+        if session.make_room(room, whitewater)? {
+            session.times.say(&format!(
+                "frame {}: the earlier frames are stepped through again, because this frame or one of them has many \
+                 more particles than the probed frames",
+                frame.number
+            ));
+        }
         let next = |f: &&Frame| {
             f.number < frame.number && session.passed().is_none_or(|last| f.number > last)
         };

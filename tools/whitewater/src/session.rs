@@ -18,11 +18,11 @@ use whitewater::{LightVolume, Previous, Settings};
 use crate::args::{DrawArgs, NoiseArg};
 use crate::blur::{self, Blur};
 use crate::bubbles::{self, Blobs};
-use crate::camera::{CameraFile, Lens};
+use crate::camera::{self, CameraFile, Lens};
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::film::{self, Reel};
-use crate::fluids::{self, Liquids};
+use crate::fluids::{self, Fluids, Liquids};
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
 use crate::placing::Placing;
@@ -66,6 +66,8 @@ pub struct Look {
     pub region: LightVolume,
     /// Frames per second of the foam simulation; `None` if each frame is independent.
     pub fps: Option<f32>,
+    /// Frames per second by which the sea, small waves and the pattern of foam move; `None` if they stand still.
+    pub clock: Option<f32>,
     /// Frames per second for motion vectors; `None` if nothing moves.
     pub rate: Option<f32>,
     /// Frames per second of a film, unless `--film-fps` sets it.
@@ -102,6 +104,8 @@ pub struct Session<'a> {
     memory: Memory,
     /// Settings of the whitewater emission, and the max number of particles.
     making: Option<(GeneratorSettings, u32)>,
+    /// Whitewater files that are open, of this frame.
+    opened: Option<(u64, whitewater_source::Reading)>,
     /// Number of whitewater particles in the files of the last drawn frame; `None` if none are read.
     pub read: Option<usize>,
     /// Whether the warning about lack of room has been printed.
@@ -112,6 +116,8 @@ pub struct Session<'a> {
     pub keep: Option<Target<WriteFormat>>,
     /// Axes and unit of the emitted whitewater's files.
     pub placing: Placing,
+    /// The fluids and their rest densities, if their settings follow from the emitted whitewater.
+    pub fluids: Option<(&'a Fluids, Vec<Option<f32>>)>,
     /// The film, if one is written.
     reel: Option<Reel>,
     pub times: Times,
@@ -256,11 +262,13 @@ impl<'a> Session<'a> {
             headless: None,
             memory: Memory::default(),
             making: None,
+            opened: None,
             read: None,
             full: false,
             unmoved: false,
             keep: None,
             placing: Placing::default(),
+            fluids: None,
             reel,
             times,
         })
@@ -288,20 +296,17 @@ impl<'a> Session<'a> {
         let content = self.look.still.unwrap_or(number);
         let time = self.time(content);
         (self.look.scene.frame, self.look.scene.time) = (content, time);
-        let files = match &self.look.whitewater {
-            Some(WhitewaterSource::Files(files)) => Some(files),
-            _ => None,
-        };
-        let whitewater = self
-            .times
-            .step("read", number, || files.map(|files| files.open(content)).transpose())?;
-        let count = whitewater.as_ref().map_or(0, whitewater_source::Reading::total);
+        let count = self.open_whitewater(number)?;
+        let whitewater = self.opened.take().map(|(_, reading)| reading);
         self.read = whitewater.as_ref().map(whitewater_source::Reading::read);
-        self.make_room_with(particles.positions.len(), count)?;
+        self.make_room(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {
                 let camera = self.look.camera.at_frame(before).camera(self.args.size)?;
-                Some(Previous { camera, dt: number.saturating_sub(before) as f32 / rate })
+                // Around a still, only the camera moves.
+                let moving = self.look.still.is_none();
+                let dt = if moving { number.saturating_sub(before) as f32 / rate } else { 0.0 };
+                Some(Previous { camera, dt })
             }
             _ => None,
         };
@@ -314,9 +319,23 @@ impl<'a> Session<'a> {
         self.step(number, source, particles, true)
     }
 
-    /// Time of a frame in seconds; 0 if frames are independent.
+    /// Opens the whitewater files of a frame, unless they are open. Returns the number of particles that are drawn of
+    /// them.
+    pub fn open_whitewater(&mut self, number: u64) -> Outcome<usize> {
+        let Some(WhitewaterSource::Files(files)) = &self.look.whitewater else { return Ok(0) };
+        let content = self.look.still.unwrap_or(number);
+        let reading = match self.opened.take() {
+            Some((open, reading)) if open == content => reading,
+            _ => self.times.step("read", number, || files.open(content))?,
+        };
+        let count = reading.total();
+        self.opened = Some((content, reading));
+        Ok(count)
+    }
+
+    /// Time of a frame in seconds; 0 in a still.
     fn time(&self, number: u64) -> f64 {
-        number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
+        number as f64 / f64::from(self.look.clock.unwrap_or(f32::INFINITY))
     }
 
     /// Draws frames of a scene that has no particles. For each frame the progress line shows `word`, then the seconds it
@@ -330,7 +349,7 @@ impl<'a> Session<'a> {
         let none = Particles::from_positions(Vec::new());
         for &number in frames {
             let began = std::time::Instant::now();
-            self.frame(number, None, source, &none)?;
+            self.frame(number, number.checked_sub(1), source, &none)?;
             let paths: Vec<_> =
                 self.paths(number).iter().map(|p| p.display().to_string()).collect();
             let (seconds, paths) = (began.elapsed().as_secs_f32(), paths.join(" and "));
@@ -403,6 +422,10 @@ impl<'a> Session<'a> {
                 if let Some(line) = made.choose(&self.look.file, &mut self.look.settings) {
                     self.times.say(&line);
                 }
+                if let Some((fluids, densities)) = &self.fluids {
+                    self.look.fluids =
+                        fluids.settings(&self.look.settings, &self.look.file, densities)?;
+                }
             }
             self.making = Some((settings, made.max_particles()));
         }
@@ -467,8 +490,8 @@ impl<'a> Session<'a> {
                 times.passes(number, headless.step_timings(Stepped::Foam));
             }
         }
-        // With several fluids, the first one emits whitewater.
-        headless.show(fluids::first(particles, self.look.fluids.len()));
+        // With several fluids, one emits whitewater.
+        headless.show(fluids::emitting(particles));
         if let (Some((settings, most)), Some(_)) = (&self.making, &particles.velocities) {
             times.step("generate", number, || match (self.look.fps, self.memory.made) {
                 (Some(fps), Some(last)) => {
@@ -549,7 +572,10 @@ impl<'a> Session<'a> {
             Outcome::Ok(layers)
         })?;
         let mut layers = layers;
-        let focus = self.args.focus.or_else(|| camera_file.distance()).unwrap_or(1.0);
+        // A camera of matrices has no target: it focuses on the middle of the water.
+        let middle = || camera::depth(&camera, self.look.region.center);
+        let focus =
+            self.args.focus.or_else(|| camera_file.distance()).or_else(middle).unwrap_or(1.0);
         if let Some(blur) = Blur::of(self.args, self.look.photograph, focus) {
             let source = self.look.whitewater.as_ref().filter(|_| blur.seconds > 0.0);
             let still = particles.velocities.is_none();

@@ -22,6 +22,13 @@ pub fn run(args: &SimulateArgs) -> Outcome<()> {
     };
     let frames = range(&args.frames)?;
     let keep = args.keep.as_deref().map(range).transpose()?.unwrap_or_else(|| frames.clone());
+    if frames.start().max(keep.start()) > frames.end().min(keep.end()) {
+        let kept = args.keep.as_deref().unwrap_or_default();
+        return Err(Failure::usage(format!(
+            "--keep: expected some of the frames {}, found {kept}",
+            args.frames
+        )));
+    }
     let scene = Scene::named(&args.scene)
         .ok_or_else(|| Failure::usage(format!("no scene is named {}", args.scene)))?;
     let spacing = args.spacing.unwrap_or(scene.spacing);

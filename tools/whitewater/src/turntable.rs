@@ -38,7 +38,7 @@ impl Turning {
         let length = match (turntable, args.draw.film_fps) {
             _ if still => Length::Numbers(span),
             (Turntable::Auto, _) => Length::Numbers(span),
-            (Turntable::Frames(frames), _) => Length::Numbers(frames as f32),
+            (Turntable::Frames(frames), _) => Length::Numbers(frames as f32 * apart),
             (Turntable::Seconds(seconds), Some(fps)) => Length::Numbers(seconds * fps * apart),
             (Turntable::Seconds(seconds), None) => Length::Seconds(seconds),
         };
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(numbers("--turntable=0.5s"), 250.0);
         // 0.5 seconds of the film are 12 pictures, which are 10 numbers apart.
         assert_eq!(numbers("--turntable=0.5s --film-fps 24"), 120.0);
-        assert_eq!(numbers("--turntable=8 --film-fps 24"), 8.0);
+        assert_eq!(numbers("--turntable=8 --film-fps 24"), 80.0);
         assert_eq!(numbers("--turntable --film-fps 24"), 1000.0);
     }
 

@@ -1,6 +1,6 @@
 //! Reads whitewater particles from files of the same frames.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f32::consts::PI;
 use std::iter;
 use std::path::PathBuf;
@@ -65,6 +65,8 @@ pub struct Files {
     most: usize,
     /// Size and number of drawn particles, if they were found.
     drawn: Option<Drawn>,
+    /// Warnings about the probed files. Of those that differ only in their numbers, the first one.
+    told: Vec<String>,
 }
 
 /// How the particles of files are drawn.
@@ -243,8 +245,15 @@ impl Files {
                 frames.entry(number).or_default().push((frame.path, *kind));
             }
         }
-        let mut files =
-            Self { frames, placing, life: None, columns: [None; 3], most: 0, drawn: None };
+        let mut files = Self {
+            frames,
+            placing,
+            life: None,
+            columns: [None; 3],
+            most: 0,
+            drawn: None,
+            told: Vec::new(),
+        };
         files.look(spacing);
         Ok(Some(files))
     }
@@ -254,6 +263,7 @@ impl Files {
     fn look(&mut self, spacing: f32) {
         let step = self.frames.len().div_ceil(PROBES).max(1);
         let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
+        let mut known = HashSet::new();
         for (path, kind, last) in self.frames.values().step_by(step).flat_map(|files| {
             let last = files.len() - 1;
             files.iter().enumerate().map(move |(i, (path, kind))| (path, *kind, i == last))
@@ -266,8 +276,14 @@ impl Files {
                 here += part.positions.len();
             });
             // If a file cannot be read, the error is reported when its frame is drawn.
-            if read.is_ok() {
+            if let Ok(read) = read {
                 longest = most.into_iter().chain(longest).reduce(f32::max);
+                for warning in &read.about().warnings {
+                    let kind: String = warning.chars().filter(|c| !c.is_ascii_digit()).collect();
+                    if known.insert(kind) {
+                        self.told.push(format!("--whitewater: {}: {warning}", path.display()));
+                    }
+                }
             }
             if last {
                 columns.end_frame();
@@ -315,8 +331,13 @@ impl Files {
         self.drawn.map_or(1, |drawn| drawn.copies)
     }
 
-    /// A message if some frames have no whitewater file with their number. Fails if no frame has one.
-    pub fn missing(&self, frames: &[u64]) -> Outcome<Option<String>> {
+    /// Messages about the files: warnings about the probed ones, and if some frames have no file with their number.
+    /// Fails if no frame has one.
+    pub fn missing(&self, frames: &[u64]) -> Outcome<Vec<String>> {
+        Ok(self.told.iter().cloned().chain(self.without(frames)?).collect())
+    }
+
+    fn without(&self, frames: &[u64]) -> Outcome<Option<String>> {
         let without = frames.iter().filter(|frame| !self.frames.contains_key(frame));
         let without: Vec<_> = without.collect();
         let Some(first) = without.first() else { return Ok(None) };
@@ -531,14 +552,29 @@ mod tests {
         let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
         let columns = [None; 3];
         let placing = Placing::default();
-        let files = Files { frames, placing, life: None, columns, most: 0, drawn: None };
-        assert_eq!(files.missing(&[2, 4]).unwrap(), None);
-        let said = files.missing(&[2, 3, 4, 5]).unwrap().expect("a warning");
+        let told = Vec::new();
+        let files = Files { frames, placing, life: None, columns, most: 0, drawn: None, told };
+        assert!(files.missing(&[2, 4]).unwrap().is_empty());
+        let said = files.missing(&[2, 3, 4, 5]).unwrap().remove(0);
         assert!(said.contains("2 of 4 frames, from 3 on"), "{said}");
         let failure = files.missing(&[10, 11]).unwrap_err();
         for part in ["frames 10 to 11", "2 files of the numbers 2 to 4"] {
             assert!(failure.message.contains(part), "{}", failure.message);
         }
+    }
+
+    /// Warnings about whitewater files are not lost; those of one kind are said once.
+    #[test]
+    fn warnings_about_files_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        for (name, row) in [("w_1.csv", "nan,0,0"), ("w_2.csv", "0,nan,0\n1,nan,0")] {
+            std::fs::write(at(name), format!("x,y,z\n0,0,0\n{row}\n")).unwrap();
+        }
+        let named = [Whitewater::Files { kind: None, files: at("w_*.csv") }];
+        let files = Files::find(&named, Placing::default(), None, 0.1).unwrap().unwrap();
+        let told = files.missing(&[1, 2]).unwrap();
+        assert!(told.len() == 1 && told[0].contains("w_1.csv: "), "{told:?}");
     }
 
     /// Returns the opacity, 0 to 1, of a column of `n` foam particles (Akinci et al. 2013, Sec. 2.3).

@@ -5,7 +5,7 @@ use whitewater::headless::{COLOR_FORMAT, Headless};
 use whitewater::water::{Kernels, Rule, Shading};
 use whitewater::{Config, DeviceSupport, WhitewaterConfig};
 
-use super::{Memory, Session, noise_of};
+use super::{Session, noise_of};
 use crate::args::{NoiseArg, ShadowArg};
 use crate::environment::{Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
@@ -31,19 +31,15 @@ pub fn passes_of(file: &SettingsFile, matte: bool, config: &mut Config) {
 }
 
 impl Session<'_> {
-    /// Creates a renderer with room for `count` particles, unless the present one has it. A new renderer starts
-    /// without foam.
-    pub fn make_room(&mut self, count: usize) -> Outcome<()> {
-        self.make_room_with(count, 0)
-    }
-
     /// Which objects cast shadows.
     pub(super) fn shadows(&self) -> ShadowArg {
         let scene = self.look.file.is_thesis();
         self.args.shadows.unwrap_or(if scene { ShadowArg::Scene } else { ShadowArg::All })
     }
 
-    pub(super) fn make_room_with(&mut self, count: usize, whitewater: usize) -> Outcome<()> {
+    /// Creates a renderer with room for `count` particles and for `whitewater` particles of files, unless the present
+    /// one has it. A new renderer starts without foam; returns whether foam or emitted whitewater was lost.
+    pub fn make_room(&mut self, count: usize, whitewater: usize) -> Outcome<bool> {
         let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
@@ -66,7 +62,7 @@ impl Session<'_> {
             |config: &Config| config.whitewater.map_or(0, |whitewater| whitewater.max_particles);
         if there.is_some_and(|config| config.max_particles >= count && most(&config) >= whitewater)
         {
-            return Ok(());
+            return Ok(false);
         }
         let device = match self.headless.take() {
             Some(headless) => headless.finish()?,
@@ -162,13 +158,7 @@ impl Session<'_> {
         }
         self.staged = self.look.scene.frame;
         self.headless = Some(headless);
-        if self.look.fps.is_some() && self.memory.stepped.or(self.memory.made).is_some() {
-            times.say(&format!(
-                "frame {number}: foam and emitted whitewater start again, because this frame has many more particles than the \
-                 probed frames"
-            ));
-        }
-        self.memory = Memory::default();
-        Ok(())
+        let memory = std::mem::take(&mut self.memory);
+        Ok(self.look.fps.is_some() && memory.stepped.or(memory.made).is_some())
     }
 }

@@ -157,6 +157,17 @@ impl Liquid {
     }
 }
 
+/// Sets all values that [`Liquid::put`] may set to those of other settings.
+pub fn take_back(settings: &mut Settings, from: &Settings) {
+    settings.water.fresnel = from.water.fresnel;
+    settings.water.wavelets.slope = from.water.wavelets.slope;
+    settings.noise.weight = from.noise.weight;
+    settings.surface_foam.front_color = from.surface_foam.front_color;
+    settings.surface_foam.back_color = from.surface_foam.back_color;
+    settings.spray.color = from.spray.color;
+    settings.whitewater.albedo = from.whitewater.albedo;
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,6 +202,9 @@ mod tests {
         // f0 = ((n - 1)/(n + 1))^2 for n = 1.49.
         let Fresnel::Schlick { f0 } = honey.water.fresnel else { panic!("{honey:?}") };
         assert!((f0 - 0.0387).abs() < 1.0e-4, "{f0}");
+        let mut bare = honey.clone();
+        take_back(&mut bare, &Settings::default());
+        assert_eq!(bare, Settings::default());
         // Viscous liquids have no small waves.
         let mut rough = Settings::default();
         rough.water.wavelets.slope = 0.1;

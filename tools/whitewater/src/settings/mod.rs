@@ -20,7 +20,7 @@ use whitewater::{Light, Settings};
 use crate::args::DrawArgs;
 use crate::failure::{Failure, Outcome};
 
-pub use medium::MediumName;
+pub use medium::{MediumName, take_back};
 #[cfg(test)]
 pub use water::Weber;
 pub use water::{FoamBy, SurfaceFoamTable};

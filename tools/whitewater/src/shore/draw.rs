@@ -266,7 +266,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
     let mut file = SettingsFile::of_args(&args.draw)?;
     let mut settings = Settings::default();
-    let (shown, by) = scene_of(which, args.level, &mut settings)?;
+    let (mut shown, by) = scene_of(which, args.level, &mut settings)?;
     let (first, last) = range.map_or((1, 1), |range| (*range.start(), *range.end()));
     let frames: Vec<u64> = (first..=last).step_by(args.every.get()).collect();
     let checked = session::check(&args.draw, frames.len() > 1)?;
@@ -287,6 +287,9 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     settings.light = environment.light();
     // The built-in scenes repeat.
     let built_in = !matches!(which, Which::File(_));
+    if built_in {
+        shown.repeat(first, last, args.fps.unwrap_or(shown.fps));
+    }
     settings.shore.period = built_in.then(|| shown.frames as f32 / shown.fps);
     file.apply(&mut settings);
     let mut scene = shown.scene;
@@ -296,6 +299,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let shores = Shores::of(&file, &scene, shown.level, shown.strip, (reach, by))?;
     file.shore.by.get_or_insert(by);
     let (low, high) = scene.bounds();
+    let fps = args.fps.unwrap_or(shown.fps);
     let look = Look {
         camera,
         settings,
@@ -316,9 +320,10 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
             center: (0.5 * (low + high)).to_array(),
             radius: 0.5 * (high - low).length().max(1.0e-3),
         },
-        fps: Some(args.fps.unwrap_or(shown.fps)),
-        rate: None,
-        film: args.fps.unwrap_or(shown.fps) / args.every.get() as f32,
+        fps: Some(fps),
+        clock: Some(fps),
+        rate: Some(fps),
+        film: fps / args.every.get() as f32,
         fullest: 1,
     };
     let (frames, mut progress) = session::unfinished(&args.draw, &checked.0, frames);

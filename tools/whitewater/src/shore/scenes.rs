@@ -30,6 +30,30 @@ pub struct ShoreScene {
     pub strip: Option<Strip>,
 }
 
+impl ShoreScene {
+    /// Makes the motion repeat like the foam, for frames `first` to `last` at `fps` frames a second. The poses go by
+    /// time: they are interpolated if this is not the scene's own rate.
+    pub fn repeat(&mut self, first: u64, last: u64, fps: f32) {
+        let period = self.frames;
+        let speed = f64::from(self.fps) / f64::from(fps);
+        // At least a whole period, so that the bounds do not depend on which frames are drawn. They take time for each
+        // pose, so that a rate that no film has does not count.
+        let whole = ((period as f64 / speed).ceil() as u64).min(10 * period);
+        let end = last.saturating_add(1).max(first.saturating_add(whole));
+        for motion in self.scene.motions.iter_mut().filter(|motion| !motion.poses.is_empty()) {
+            let count = motion.poses.len();
+            let pose = |number: u64| {
+                let at = ((number as f64 - 1.0) * speed).rem_euclid(period as f64);
+                let [before, after] = [0, 1].map(|next| motion.poses[(at as usize + next) % count]);
+                let part = at.fract() as f32;
+                before * (1.0 - part) + after * part
+            };
+            let poses: Vec<Mat4> = (first..end).map(pose).collect();
+            (motion.first_frame, motion.poses) = (first, poses);
+        }
+    }
+}
+
 /// A ground material by name; the default one if there is none.
 fn material(name: &str) -> Material {
     Material::named(name).unwrap_or_default()
@@ -515,6 +539,28 @@ mod tests {
         assert!(near(motion.pose(1), motion.pose(shore.frames)), "a closed way");
         assert!(!near(motion.pose(1), motion.pose(shore.frames / 2)));
         assert!(!shore.scene.rests_between(1, 2));
+    }
+
+    /// The motion repeats with the foam, at any rate, wherever a run begins.
+    #[test]
+    fn a_scene_repeats() {
+        let mut shore = archipelago();
+        let own = shore.scene.motions[0].clone();
+        let mut pose = |first: u64, last: u64, fps: f32, number: u64| {
+            shore.scene.motions = vec![own.clone()];
+            shore.repeat(first, last, fps);
+            shore.scene.motions[0].pose(number)
+        };
+        for number in [1, 121, 240] {
+            assert_eq!(pose(1, 1, 24.0, number), own.pose(number));
+            assert_eq!(pose(361, 720, 24.0, number + 480), own.pose(number));
+        }
+        for (number, expected) in [(301, 121), (601, 1), (4, 2)] {
+            let off = pose(1, 700, 60.0, number) - own.pose(expected);
+            // A fifth of the way from one pose to the next.
+            let most = if number == 4 { 0.3 } else { 1.0e-3 };
+            assert!(off.to_cols_array().iter().all(|c| c.abs() < most), "{number}: {off}");
+        }
     }
 
     #[test]

@@ -100,6 +100,35 @@ fn bad_command_lines_are_code_2() {
     assert!(folder.run("render --help").ok().stdout().contains("Exit codes"));
 }
 
+/// However its path is written: with another folder in front, through a link, or as a file of a fluid.
+#[test]
+fn no_input_is_written() {
+    let folder = Folder::new();
+    for name in ["f_1.ply", "f_2.ply", "oil_1.ply"] {
+        folder.particles(name, block(3));
+    }
+    symlink("f_2.ply", folder.path("link_2.ply")).unwrap();
+    folder.text("a.csv", "x,y,z\n0,0,0\n");
+    folder.text("w.csv", "x,y,z\n0,0,0\n");
+    folder.text("c.json", r#"{"eye":[0,0,3],"target":[0,0,0]}"#);
+    let names = ["f_1.ply", "f_2.ply", "oil_1.ply", "a.csv", "w.csv", "c.json"];
+    let read = || names.map(|name| std::fs::read(folder.path(name)).unwrap());
+    let before = read();
+    let made = "--whitewater generate --write-whitewater";
+    for (inputs, flag, said) in [
+        ("f_*.ply", format!("{made} ./f_%d.ply"), "--write-whitewater: ./f_1.ply"),
+        ("f_*.ply", format!("{made} link_%d.ply"), "--write-whitewater: link_2.ply"),
+        ("f_1.ply --fluid oil_1.ply:honey", format!("{made} oil_1.ply"), "oil_1.ply"),
+        ("a.csv", "--timings ./a.csv".into(), "--timings: ./a.csv"),
+        ("f_1.ply --whitewater w.csv", "--timings w.csv".into(), "--timings: w.csv"),
+        ("f_1.ply --camera c.json", "--trace c.json".into(), "--trace: c.json"),
+    ] {
+        let run = folder.run(&format!("render {inputs} -o o_%d.png {SMALL} {flag}"));
+        run.fails(2, &[said, "is an input; name another file"]);
+    }
+    assert!(read() == before);
+}
+
 #[test]
 fn no_device_is_code_4() {
     let folder = Folder::new();

@@ -202,8 +202,15 @@ fn single_pngs_are_photographs() {
     assert!(usual != sharp && sharp == png("render a_1.vtu -o o.png --samples 1"));
     assert!(usual == png("render a_1.vtu -o o.png --shutter 1/200"));
     assert!(sharp == png("render a_1.vtu -o o.png -o o.exr"));
-    folder.run(&format!("render a_*.vtu -o s_%d.png {look}")).ok();
-    assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
+    // Frames of a sequence are not.
+    let first = |more: &str| {
+        folder
+            .run(&format!("render a_*.vtu --frames 1 -o s_%d.png --overwrite {look} {more}"))
+            .ok();
+        folder.picture("s_1.png").rgb().unwrap()
+    };
+    assert!(first("") == first("--samples 1"));
+    assert!(first("") != first("--shutter 1/200"));
 }
 
 /// Each debug view adds its layer, within the water only. Without foam all water is in front of it.

@@ -37,6 +37,8 @@ fn what_cannot_be_simulated_is_refused() {
     let folder = Folder::new();
     folder.run("simulate bamboo --out b --spacing 0.1").fails(2, &["--spacing", "0.1"]);
     folder.run("simulate bamboo --out b --frames 3-1").fails(2, &["3-1"]);
+    let keep = "simulate bamboo --out b --frames 1-2 --keep 5-6";
+    folder.run(keep).fails(2, &["--keep", "frames 1-2", "found 5-6"]);
     folder.text("file", "");
     folder.run("simulate corridor --out file").fails(5, &["cannot write file"]);
     assert_eq!(folder.run("simulate lake --out b").0.status.code(), Some(2));
@@ -61,8 +63,11 @@ fn parts_and_the_camera_move_by_the_number_of_the_frame() {
         r#"{"keys":[{"frame":1,"eye":[0,0.5,2],"target":[0,0.2,0]},
                     {"frame":9,"eye":[2,0.5,2],"target":[0,0.2,0]}]}"#,
     );
+    // Small waves would move too, and the pattern of spray.
+    folder.text("calm.toml", "[wavelets]\nslope = 0.0\n[spray]\nclumps = 0.0\n");
     let draw = |name: &str, view: &str, more: &str| {
-        let look = format!("--scene s.json --radius 0.05 --supersample 1 {SIZE}");
+        let look =
+            format!("--scene s.json --radius 0.05 --supersample 1 --settings calm.toml {SIZE}");
         folder.run(&format!("render f_*.ply -o {name}_%d.exr {view} {look} {more}")).ok();
     };
     let still = "--eye 0,0.5,2 --target 0,0.2,0";

@@ -224,6 +224,115 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     assert!(foam("d_4.exr") < fourth);
 }
 
+/// A frame that was not probed has many more particles than the others: the frames before it are simulated again, and
+/// nothing is lost.
+#[test]
+fn more_room_steps_through_the_frames_again() {
+    let folder = Folder::new();
+    // Of 18 frames the ninth is not probed; there is room for 1024 particles at least.
+    for frame in 1..=18 {
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        let more = if frame == 9 { block(11) } else { Vec::new() };
+        let more = more.into_iter().map(|[x, y, z]| [x + 3.0, y, z]);
+        for (i, [x, y, z]) in block(5).into_iter().chain(more).enumerate() {
+            rows += &format!("{x},{y},{z},9,0,0,{i}\n");
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let common = format!("{SMALL} --surface-foam 1 --fps 30 --frames 10 --layers none");
+    let said = folder.run(&format!("render f_*.csv -o a_%d.png {common}")).ok().stderr();
+    let expected = "frame 10: the earlier frames are stepped through again";
+    assert!(said.contains(expected) && !said.contains("start again"), "{said}");
+}
+
+/// Small waves on water that rests move from frame to frame, also where no foam is remembered, and a part of the
+/// sequence shows the same.
+#[test]
+fn small_waves_move_in_every_sequence() {
+    let folder = Folder::new();
+    for frame in 1..=2 {
+        folder.particles(&format!("f_{frame}.ply"), block(6));
+    }
+    folder.text("waves.toml", "[wavelets]\nslope = 0.3\n");
+    let from_above = "--eye 0,1.6,1.6 --target 0,0.5,0 --radius 0.05 --settings waves.toml";
+    let common = format!("{SMALL} {from_above} --surface-foam none --layers none");
+    let said = folder.run(&format!("render f_*.ply -o a_%d.exr {common}")).ok().stderr();
+    assert!(said.contains("30 frames a second (assumed"), "{said}");
+    folder.run("compare a_1.exr a_2.exr --tolerance 1e-4").fails(1, &["RMSE"]);
+    folder.run(&format!("render f_*.ply -o b_%d.exr {common} --frames 2")).ok();
+    folder.run("compare a_2.exr b_2.exr").ok();
+}
+
+/// The shutter needs velocities: without any in the files they are found, also if no foam needs them.
+#[test]
+fn a_shutter_finds_velocities() {
+    let folder = Folder::new();
+    for frame in 1..=2_u8 {
+        let mut rows = String::from("x,y,z,id\n");
+        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+            rows += &format!("{},{y},{z},{i}\n", x + 0.05 * f32::from(frame));
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let blurred = SMALL.replace("--samples 1", "--samples 2 --shutter 1/30");
+    let common = format!("{blurred} --surface-foam none --fps 30 --frames 2 --layers none");
+    let said = folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok().stderr();
+    assert!(said.contains("velocities are not in the files"), "{said}");
+    assert!(!said.contains("blurs nothing"), "{said}");
+}
+
+/// A camera that is given as matrices has no target, and focuses on the water.
+#[test]
+fn matrices_focus_on_the_water() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    // The camera of `FRONT`.
+    let (wide, near) = (20.0_f32.to_radians().tan().recip(), 0.01_f32 * 2.35);
+    let aspect = 96.0 / 64.0;
+    let view = "1,0,0,0,0,1,0,0,0,0,1,0,0,-0.35,-2.35,1";
+    let projection = format!("{},0,0,0,0,{},0,0,0,0,0,-1,0,0,{near},0", wide / aspect, -wide);
+    folder.text("m.json", &format!("{{\"view\":[{view}],\"projection\":[{projection}]}}"));
+    let blurred = SMALL.replace("--samples 1", "--samples 4 --aperture 0.4");
+    let common = format!("render a.ply {blurred} --layers none");
+    folder.run(&format!("{common} {FRONT} -o target.exr")).ok();
+    folder.run(&format!("{common} --radius 0.05 --camera m.json -o matrices.exr")).ok();
+    folder.run("compare target.exr matrices.exr --tolerance 0.01").ok();
+}
+
+/// Motion vectors of a camera that moves around one frame, and before scenes without particles.
+#[test]
+fn a_camera_alone_makes_motion() {
+    let folder = Folder::new();
+    let mut rows = String::from("x,y,z,vx,vy,vz\n");
+    block(5).iter().for_each(|[x, y, z]| rows += &format!("{x},{y},{z},0,50,0\n"));
+    folder.text("a.csv", &rows);
+    folder.text(
+        "c.json",
+        r#"{"keys":[{"frame":1,"eye":[0,2,6],"target":[0,0.5,0]},{"frame":3,"eye":[2,2,6],"target":[2,0.5,0]}]}"#,
+    );
+    let motion = |picture: &str| {
+        let picture = folder.picture(picture);
+        let water = picture.channel("water.depth.Z");
+        ["motion.X", "motion.Y"].map(|name| {
+            let all = picture.channel(name).unwrap().iter().enumerate();
+            let seen = all.filter(|(i, _)| water.is_none_or(|z| z[*i] < EMPTY));
+            seen.map(|(_, v)| v.abs()).fold(0.0, f32::max)
+        })
+    };
+    let around = format!("{SMALL} {FRONT} --up-axis y --turntable=8 --surface-foam none");
+    folder.run(&format!("render a.csv {around} --layers motion,water.depth -o t_%d.exr")).ok();
+    assert_eq!(motion("t_1.exr"), [0.0; 2], "no picture before");
+    let [x, y] = motion("t_2.exr");
+    // The water stands still, however fast it is: it would move by 60 pixels.
+    assert!(x > 1.0 && y < 4.0, "{x} {y}");
+    for scene in ["--bubbles one", "--shore pool"] {
+        let common = format!("--camera c.json {SIZE} --layers motion --overwrite");
+        folder.run(&format!("render {scene} --frames 2 {common} -o b.exr")).ok();
+        let [x, _] = motion("b.exr");
+        assert!(x > 1.0, "{scene}: {x}");
+    }
+}
+
 /// A block that flies to the right and a little up, before a camera that rests or follows it.
 #[test]
 fn motion_is_what_moved_in_a_frame() {

@@ -182,6 +182,9 @@ fn built_in_scenes_are_drawn() {
     folder.run(&format!("{islands} --frames 1-81 --every 80 -o a_%d.exr")).ok();
     folder.run(&format!("{islands} --frames 81 -o b.exr")).ok();
     folder.run("compare a_81.exr b.exr").ok();
+    // The scene repeats after 240 frames.
+    folder.run(&format!("{islands} --frames 321 -o c.exr")).ok();
+    folder.run("compare b.exr c.exr --tolerance 1e-3").ok();
     let picture = folder.picture("b.exr");
     assert!(picture.channel("shore.amount").unwrap().iter().any(|v| *v > 0.9));
 }

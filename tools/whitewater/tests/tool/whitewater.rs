@@ -435,6 +435,74 @@ fn velocities_are_found_from_frame_to_frame() {
         .fails(3, &["velocities", "ids"]);
 }
 
+/// Size and opacity that are found for emitted whitewater are those of all fluids: if a settings file says them, the
+/// picture is the same.
+#[test]
+fn emitted_whitewater_looks_alike_with_fluids() {
+    let folder = Folder::new();
+    torn(&folder, 1);
+    folder.text("oil_1.csv", "x,y,z,vx,vy,vz,id\n0.9,0,0,0,0,0,0\n0.9,0.1,0,0,0,0,1\n");
+    let common = format!(
+        "render torn_1.csv --fluid oil_1.csv:water {SMALL} {FRONT} --whitewater generate --surface-foam none"
+    );
+    folder.run(&format!("{common} -o found.exr")).ok();
+    let found = folder.picture("found.exr");
+    let text = &found.attributes.iter().find(|(name, _)| name == "settings").unwrap().1;
+    let table = text.parse::<toml::Table>().unwrap();
+    let of = |key: &str| table["whitewater"].as_table().unwrap()[key].as_float().unwrap();
+    let [radius, half] = ["radius", "half_intensity_thickness"].map(of);
+    folder.text(
+        "said.toml",
+        &format!("[whitewater]\nradius = {radius:?}\nhalf_intensity_thickness = {half:?}\n"),
+    );
+    folder.run(&format!("{common} --settings said.toml -o said.exr")).ok();
+    let said = folder.picture("said.exr");
+    for name in ["whitewater.thickness", "whitewater.intensity"] {
+        let sum = |picture: &whitewater::io::picture::Layers| {
+            picture.channel(name).unwrap().iter().sum::<f32>()
+        };
+        let (found, said) = (sum(&found), sum(&said));
+        assert!(said > 0.0 && (found / said - 1.0).abs() < 1.0e-3, "{name}: {found} {said}");
+    }
+}
+
+/// Frames of water that is fast in the second and third, as those of `foam_comes_and_goes_whichever_frames_are_drawn`.
+/// The third has many more whitewater particles than the frames that are probed, and its surface foam is not lost.
+#[test]
+fn many_whitewater_particles_leave_surface_foam_as_it_is() {
+    let folder = Folder::new();
+    for (frame, speed) in [(1, 0.0), (2, 9.0), (3, 9.0), (4, 0.0)] {
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+            rows += &format!("{x},{y},{z},{speed},0,0,{i}\n");
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    // Of 34 files every third is probed, beginning with the first; there is room for 1024 particles at least.
+    for frame in 1..=34 {
+        let count = if frame == 3 { 1500 } else { 1 };
+        let rows = "0,0.35,0.5,0\n".repeat(count);
+        folder.text(&format!("w_{frame}.csv"), &format!("x,y,z,type\n{rows}"));
+    }
+    folder.text("look.toml", LOOK);
+    let common = format!(
+        "render f_*.csv {SMALL} --settings look.toml --surface-foam 1 --fps 4 --layers surface_foam.thickness"
+    );
+    folder.run(&format!("{common} -o a_%d.exr")).ok();
+    let run = folder.run(&format!("{common} --whitewater w_%d.csv -o b_%d.exr")).ok();
+    let said = run.stderr();
+    assert_eq!(said.matches("frame 3: the earlier frames are stepped through again").count(), 1);
+    assert!(said.contains("1500 whitewater particles"), "{said}");
+    for frame in 1..=4 {
+        let [a, b] = ["a", "b"].map(|name| {
+            let picture = folder.picture(&format!("{name}_{frame}.exr"));
+            picture.channel("surface_foam.thickness").unwrap().to_vec()
+        });
+        assert!(a == b, "frame {frame}");
+        assert_eq!(a.iter().sum::<f32>() > 0.0, frame > 2, "frame {frame}");
+    }
+}
+
 #[test]
 fn mistakes_in_making_whitewater_particles_are_named() {
     let folder = Folder::new();
