@@ -28,14 +28,13 @@ use crate::upright::{self, Found as Upright};
 use crate::whitewater_source;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
+    if args.inputs.is_empty() {
+        refuse_options_of_particles(args)?;
+    }
     if let Some(which) = &args.shore {
         return shore::run(args, which);
     }
     let foam = match &args.bubbles {
-        Some(_) if args.inputs.is_empty() && args.turntable.is_some() => {
-            let why = "--turntable: expected particle files, found --bubbles alone";
-            return Err(Failure::usage(why));
-        }
         Some(which) if args.inputs.is_empty() => return bubbles::run(args, which),
         Some(bubbles::Which::File(path)) => {
             let (blobs, moves) = bubbles::read(path)?;
@@ -281,6 +280,29 @@ fn keep_inputs(
         Some((flag, _, path)) => {
             let path = path.display();
             Err(Failure::usage(format!("{flag}: {path} is an input; name another file")))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Fails if options are given that a scene without particles would ignore.
+fn refuse_options_of_particles(args: &RenderArgs) -> Outcome<()> {
+    let found = if args.shore.is_some() { "--shore" } else { "--bubbles" };
+    let given = [
+        ("--turntable", args.turntable.is_some()),
+        ("--radius", args.radius.is_some()),
+        ("--whitewater", !args.whitewater.is_empty()),
+        ("--write-whitewater", args.write_whitewater.is_some()),
+        ("--join", args.join),
+        ("--up-axis", args.up_axis.is_some()),
+        ("--where", !args.conditions.is_empty()),
+        ("--unit", args.unit.is_some()),
+        ("--scale", args.scale.is_some()),
+        ("--set", args.set.is_some()),
+    ];
+    match given.into_iter().find(|(_, given)| *given) {
+        Some((flag, _)) => {
+            Err(Failure::usage(format!("{flag}: expected particle files, found {found} alone")))
         }
         None => Ok(()),
     }

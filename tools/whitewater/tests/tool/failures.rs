@@ -111,8 +111,14 @@ fn no_input_is_written() {
     folder.text("a.csv", "x,y,z\n0,0,0\n");
     folder.text("w.csv", "x,y,z\n0,0,0\n");
     folder.text("c.json", r#"{"eye":[0,0,3],"target":[0,0,0]}"#);
-    let names = ["f_1.ply", "f_2.ply", "oil_1.ply", "a.csv", "w.csv", "c.json"];
-    let read = || names.map(|name| std::fs::read(folder.path(name)).unwrap());
+    folder.text("sky.exr", "a sky");
+    folder.text("sky2.exr", "a sky");
+    folder.text("s.json", "");
+    let names = "f_1.ply f_2.ply oil_1.ply a.csv w.csv c.json sky.exr sky2.exr s.json";
+    let names: Vec<&str> = names.split(' ').collect();
+    let read = || -> Vec<Vec<u8>> {
+        names.iter().map(|name| std::fs::read(folder.path(name)).unwrap()).collect()
+    };
     let before = read();
     let made = "--whitewater generate --write-whitewater";
     for (inputs, flag, said) in [
@@ -126,7 +132,47 @@ fn no_input_is_written() {
         let run = folder.run(&format!("render {inputs} -o o_%d.png {SMALL} {flag}"));
         run.fails(2, &[said, "is an input; name another file"]);
     }
+    for (command, said) in [
+        ("render f_1.ply -o sky.exr --environment ./sky.exr", "--output: sky.exr is an input"),
+        ("render f_*.ply -o sky%d.exr --environment sky2.exr", "--output: sky2.exr is an input"),
+        ("demo -o sky.exr --environment sky.exr", "--output: sky.exr is an input"),
+        (
+            "render --shore pool -o o.png --settings s.json --timings s.json",
+            "--timings: s.json is an input",
+        ),
+        ("render f_1.ply -o o.exr -o o.png -o o.exr", "--output: o.exr is named twice"),
+        (
+            "render f_1.ply -o o.png --timings t.json --trace t.json",
+            "--trace: t.json is named twice",
+        ),
+    ] {
+        folder.run(&format!("{command} {SIZE}")).fails(2, &[said, "name another file"]);
+    }
     assert!(read() == before);
+}
+
+/// Scenes without particles do not ignore options about particles.
+#[test]
+fn options_of_particles_need_particles() {
+    let folder = Folder::new();
+    for scene in ["--shore pool", "--bubbles one"] {
+        for option in [
+            "--radius 0.1",
+            "--where a=1",
+            "--unit cm",
+            "--scale 2",
+            "--up-axis z",
+            "--join",
+            "--set studio",
+            "--write-whitewater w.ply",
+        ] {
+            let run = folder.run(&format!("render {scene} -o o.png {SIZE} {option}"));
+            let (flag, scene) =
+                (option.split(' ').next().unwrap(), &scene[..scene.find(' ').unwrap()]);
+            run.fails(2, &[&format!("{flag}: expected particle files, found {scene} alone")]);
+        }
+    }
+    assert!(!folder.exists("o.png"));
 }
 
 #[test]
