@@ -17,10 +17,9 @@ const int AIRS = 5;
 const uint AIR_WORDS = 4u;
 // Distance before and behind a sphere's centre within which it marks slices.
 const float REACH = 0.8;
-// A sphere marks the screen cells that the bounding box of its silhouette touches, and those whose centres are at most
-// this far beside the box, in particle spacings. So a cell counts every sphere of the drawn radius whose centre is
-// within a spacing of its own centre. Otherwise cells much smaller than the spheres would find air between the spheres
-// of one body of water.
+// Margin in particle spacings around the bounding box of a sphere's silhouette. The sphere marks the screen cells that
+// the box touches and those with their centres in this margin, so that it reaches all cells within a spacing of its
+// centre. Without the margin, cells much smaller than the spheres would find air inside one body of water.
 const float BESIDE = 0.35;
 // Numbers of depth slices that the water behind a gap fills: water with at most the first number is a drop, with at
 // least the second a body of water, and in between partly one. One sphere marks 13 or 14 slices.

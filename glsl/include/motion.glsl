@@ -51,9 +51,9 @@ uint sum_index(uint texel, uint surface, uint i) {
     return 2u * (4u * (surface * uint(extent.x * extent.y) + texel) + i);
 }
 
-// Weight of a particle with its centre at `depth` in the mean of a surface: 1 within one drawn radius of the surface,
-// 0 beyond three. The centre of the sphere that forms the surface is at most one radius behind it, the centres of the
-// next layer of spheres are about one spacing, which is 1.5 radii, farther.
+// Weight of a particle with its centre at `depth` in the mean motion of a surface. It falls from 1 to 0 between one and
+// three drawn radii from the surface. The sphere that forms the surface has its centre within one radius of it, and so
+// counts in full. The next layer of spheres lies about one spacing (1.5 radii) deeper, and counts in part.
 float near_surface(float depth, float surface) {
     return 1.0 - smoothstep(frame.particle.x, 3.0 * frame.particle.x, abs(depth - surface));
 }

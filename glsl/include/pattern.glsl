@@ -31,9 +31,8 @@ vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
     return (place - way + frame.foam_octaves[1u + phase]) / OCTAVES[octave];
 }
 
-// Sum of the two coarse octaves of the pattern at a point. w: logarithm of the factor on the amount of foam, at most
-// MOST_PATTERN; without this limit the factor's mean would be 1. xyz: gradient of the unlimited logarithm per scene
-// unit.
+// The two coarse octaves of the pattern at a point. The pattern multiplies the amount of foam by a factor with a mean
+// of 1. w: the factor's logarithm, then limited to MOST_PATTERN. xyz: gradient of the unlimited logarithm per scene unit.
 vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
     vec4 sum = vec4(0.0);
     float square = 0.0;

@@ -477,8 +477,8 @@ const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.
 // Cosine of the angle between the foam's normal and the sun: at the first value foam is unlit, at the second fully
 // lit. The range is wide because light scatters in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
-// Fraction of all light that foam loses at most: in a hollow whose surroundings are all nearer to the eye by at least
-// `reach`, the distance of the samples.
+// Fraction of its light that foam loses in the deepest hollow, where all eight samples around it are nearer to the eye
+// by SHAPE_REACH.x particle spacings or more. In other hollows it loses less, in proportion.
 const float SHAPE_HOLLOW = 0.6;
 
 // By how much the foam at a point between texels is farther from the eye than depth z, clamped to ±reach. Texels

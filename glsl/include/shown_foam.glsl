@@ -8,9 +8,8 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// For motion vectors: returns the eye depth of the frontmost foam at a pixel if the foam's opacity along the view axis,
-// without lace and aeration, is at least a half, otherwise EMPTY, so that thinner foam gets the motion of the surface
-// behind it.
+// For motion vectors: eye depth of the frontmost foam at a pixel, or EMPTY where the foam's opacity along the view axis,
+// without lace and aeration, is less than a half. There the motion is that of the surface behind the foam.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;
