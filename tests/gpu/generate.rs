@@ -45,8 +45,25 @@ impl Making {
         Self { stub: Stub::new(gpu, SLOTS), generator: Some(generator), steps: 0 }
     }
 
+    /// A generator to which the allocator probably hands out the memory of another one, filled with 0x5a.
+    fn in_used_memory(gpu: &Gpu) -> Self {
+        let mut before = Self::new(gpu, &config());
+        let size = before.generator().size() as usize;
+        before.restore(&vec![0x5a; size]);
+        drop(before);
+        Self::new(gpu, &config())
+    }
+
     fn generator(&mut self) -> &mut Generator {
         self.generator.as_mut().expect("only drop takes it")
+    }
+
+    /// Records commands in frame slot 0 that are never submitted; the next step is in slot 1.
+    fn discard(&mut self, record: impl FnOnce(&mut Generator, vk::CommandBuffer)) {
+        self.stub.wait(0);
+        let cmd = self.stub.begin(0);
+        record(self.generator.as_mut().expect("only drop takes it"), cmd);
+        self.steps = 1;
     }
 
     /// Records a step in the next frame slot.
@@ -685,35 +702,15 @@ fn every_kind_of_input() {
 #[test]
 fn an_abandoned_first_step_leaves_nothing() {
     let gpu = Gpu::shared();
-    // The allocator probably hands out this memory, filled with 0x5a, to the next generator.
-    let mut before = Making::new(&gpu, &config());
-    let size = before.generator().size() as usize;
-    before.restore(&vec![0x5a; size]);
-    drop(before);
-    let mut making = Making::new(&gpu, &config());
-    let fluid = sea(0);
-    let data = making
-        .stub
-        .data(bytemuck::cast_slice(&fluid.positions), vk::BufferUsageFlags::STORAGE_BUFFER);
-    let settings = settings();
-    making.stub.wait(0);
-    let cmd = making.stub.begin(0);
-    let generator = making.generator.as_mut().expect("only drop takes it");
-    let step = GeneratorStep::new(
-        Slot(0),
-        [stream(&data, 0, 12), stream(&data, 0, 12)],
-        Count::Cpu(fluid.ids.len() as u32),
-        0.1,
-        &settings,
-    )
-    .with(|it| {
-        it.before = HOST_WRITE;
-        it.after = HOST_WRITE;
+    let mut making = Making::in_used_memory(&gpu);
+    let (fluid, settings) = (sea(0), settings());
+    let data = making.upload(&fluid);
+    making.discard(|generator, cmd| {
+        let step = step_of(&data, &fluid, &settings, 0.1, 0);
+        // SAFETY: cmd is recording and never submitted.
+        unsafe { generator.record_step(cmd, &step) }.expect("a step");
     });
-    // SAFETY: cmd is recording and never submitted.
-    unsafe { generator.record_step(cmd, &step) }.expect("a step");
-    generator.abandon(Slot(0));
-    making.steps = 1;
+    making.generator().abandon(Slot(0));
     assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
 }
 
@@ -723,21 +720,16 @@ fn an_abandoned_first_step_leaves_nothing() {
 fn states_outlive_what_is_discarded() {
     let gpu = Gpu::shared();
     let settings = settings();
-    let mut before = Making::new(&gpu, &config());
-    let size = before.generator().size();
-    before.restore(&vec![0x5a; size as usize]);
-    drop(before);
-    let mut making = Making::new(&gpu, &config());
+    let mut making = Making::in_used_memory(&gpu);
+    let size = making.generator().size();
     let to = making.stub.data(&vec![0; size as usize], vk::BufferUsageFlags::TRANSFER_DST);
-    making.stub.wait(0);
-    let cmd = making.stub.begin(0);
-    let generator = making.generator.as_mut().expect("only drop takes it");
-    // SAFETY: cmd is recording and never submitted.
-    unsafe {
-        generator.record_reset(cmd);
-        generator.record_save(cmd, to.buffer, 0);
-    }
-    making.steps = 1;
+    making.discard(|generator, cmd| {
+        // SAFETY: cmd is recording and never submitted.
+        unsafe {
+            generator.record_reset(cmd);
+            generator.record_save(cmd, to.buffer, 0);
+        }
+    });
     assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
 
     let mut other = Making::new(&gpu, &config());
@@ -757,40 +749,22 @@ fn states_outlive_what_is_discarded() {
 fn a_refused_step_does_not_keep_the_one_before() {
     let gpu = Gpu::shared();
     let settings = settings();
-    let mut before = Making::new(&gpu, &config());
-    let size = before.generator().size() as usize;
-    before.restore(&vec![0x5a; size]);
-    drop(before);
-    let mut making = Making::new(&gpu, &config());
+    let mut making = Making::in_used_memory(&gpu);
     let fluid = sea(0);
-    let data = making
-        .stub
-        .data(bytemuck::cast_slice(&fluid.positions), vk::BufferUsageFlags::STORAGE_BUFFER);
-    let good = GeneratorStep::new(
-        Slot(0),
-        [stream(&data, 0, 12), stream(&data, 0, 12)],
-        Count::Cpu(fluid.ids.len() as u32),
-        0.1,
-        &settings,
-    )
-    .with(|it| {
-        it.before = HOST_WRITE;
-        it.after = HOST_WRITE;
-    });
+    let data = making.upload(&fluid);
+    let good = step_of(&data, &fluid, &settings, 0.1, 0);
     let bad = good.with(|it| {
         it.slot = Slot(1);
         it.dt = f32::NAN;
     });
-    making.stub.wait(0);
-    let cmd = making.stub.begin(0);
-    let generator = making.generator.as_mut().expect("only drop takes it");
-    // SAFETY: cmd is recording and never submitted.
-    unsafe {
-        generator.record_step(cmd, &good).expect("a step");
-        generator.record_step(cmd, &bad).expect_err("no time");
-    }
-    generator.abandon(Slot(0));
-    making.steps = 1;
+    making.discard(|generator, cmd| {
+        // SAFETY: cmd is recording and never submitted.
+        unsafe {
+            generator.record_step(cmd, &good).expect("a step");
+            generator.record_step(cmd, &bad).expect_err("no time");
+        }
+    });
+    making.generator().abandon(Slot(0));
     assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
 }
 

@@ -191,13 +191,7 @@ fn loose_water_foams_by_its_own_density() {
 #[test]
 fn foam_comes_and_goes_whichever_frames_are_drawn() {
     let folder = Folder::new();
-    for (frame, speed) in [(1, 0.0), (2, 9.0), (3, 9.0), (4, 0.0)] {
-        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
-        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
-            rows += &format!("{x},{y},{z},{speed},0,0,{i}\n");
-        }
-        folder.text(&format!("f_{frame}.csv"), &rows);
-    }
+    folder.water_that_is_fast_for_a_while();
     let common = format!("{SMALL} --surface-foam 1 --fps 4 --layers surface_foam.thickness");
     folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
     folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3-4")).ok();

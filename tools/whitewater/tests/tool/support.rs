@@ -47,7 +47,18 @@ impl Folder {
         self.write(name, &Particles::from_positions(positions));
     }
 
-    /// The same with all attributes, in the format of the name.
+    /// Writes frames `f_1.csv` to `f_4.csv` of a block of water that is fast in the second and third.
+    pub fn water_that_is_fast_for_a_while(&self) {
+        for (frame, speed) in [(1, 0.0), (2, 9.0), (3, 9.0), (4, 0.0)] {
+            let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+            for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+                rows += &format!("{x},{y},{z},{speed},0,0,{i}\n");
+            }
+            self.text(&format!("f_{frame}.csv"), &rows);
+        }
+    }
+
+    /// Writes particles with all attributes, in the format of the name.
     pub fn write(&self, name: &str, particles: &Particles) {
         let path = self.path(name);
         particles::write(&path, particles, WriteFormat::from_path(&path).unwrap()).unwrap();

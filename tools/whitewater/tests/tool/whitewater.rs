@@ -466,18 +466,11 @@ fn emitted_whitewater_looks_alike_with_fluids() {
     }
 }
 
-/// Frames of water that is fast in the second and third, as those of `foam_comes_and_goes_whichever_frames_are_drawn`.
-/// The third has many more whitewater particles than the frames that are probed, and its surface foam is not lost.
+/// A frame has many more whitewater particles than those that are probed. Surface foam from before it is not lost.
 #[test]
 fn many_whitewater_particles_leave_surface_foam_as_it_is() {
     let folder = Folder::new();
-    for (frame, speed) in [(1, 0.0), (2, 9.0), (3, 9.0), (4, 0.0)] {
-        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
-        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
-            rows += &format!("{x},{y},{z},{speed},0,0,{i}\n");
-        }
-        folder.text(&format!("f_{frame}.csv"), &rows);
-    }
+    folder.water_that_is_fast_for_a_while();
     // Of 34 files every third is probed, beginning with the first; there is room for 1024 particles at least.
     for frame in 1..=34 {
         let count = if frame == 3 { 1500 } else { 1 };
