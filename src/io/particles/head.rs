@@ -374,7 +374,7 @@ mod tests {
 
     use super::*;
 
-    /// The line of an element takes as long to find at the end of a file as at its beginning.
+    /// Counting in blocks gives the same lines as counting from the beginning.
     #[test]
     fn lines_are_counted_from_their_block() {
         let text = "<Piece>\n\n".repeat(1 << 20);

@@ -16,6 +16,7 @@ use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::stage;
 use crate::surface_foam;
+use crate::written;
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
@@ -39,6 +40,7 @@ fn viewpoint(fov: Option<f32>) -> CameraFile {
 
 pub fn run(args: &DemoArgs) -> Outcome<()> {
     let began = std::time::Instant::now();
+    written::check_pictures(&args.draw, &[args.camera.file.as_deref()])?;
     let checked = session::check(&args.draw, false)?;
     for target in &checked.0 {
         output::probe(&target.path(0))?;

@@ -53,6 +53,7 @@ mod tracks;
 mod turntable;
 mod upright;
 mod whitewater_source;
+mod written;
 
 use std::process::ExitCode;
 

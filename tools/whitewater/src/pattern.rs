@@ -9,6 +9,7 @@ use crate::args::PatternArgs;
 use crate::failure::{Failure, Outcome};
 use crate::out;
 use crate::output::{self, PictureFormat, Target};
+use crate::written;
 
 /// Default luminance from which a pixel is white.
 const THRESHOLD: f32 = 0.5;
@@ -43,6 +44,9 @@ pub fn named(text: &str) -> Result<Source, String> {
 pub fn run(args: &PatternArgs) -> Outcome<()> {
     let format = Target::new(&args.output, false)?.format;
     let of_pictures = args.reach.is_some() || args.invert || args.threshold.is_some();
+    if let Source::File(path) = &args.input {
+        written::check([("--output", args.output.clone())], [path.as_path()])?;
+    }
     match &args.input {
         Source::File(_) if args.size.is_some() => {
             return Err(Failure::usage(

@@ -1,8 +1,5 @@
 //! `whitewater render`: particle files to pictures, one or a sequence.
 
-use std::collections::HashSet;
-use std::path::{Path, PathBuf};
-
 use whitewater::Settings;
 use whitewater::io::particles;
 use whitewater::io::particles::sequence::{self, Frame};
@@ -26,11 +23,22 @@ use crate::shore::{self, Shores};
 use crate::turntable::{Turning, stills, stills_fps};
 use crate::upright::{self, Found as Upright};
 use crate::whitewater_source;
+use crate::written;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
     if args.inputs.is_empty() {
         refuse_options_of_particles(args)?;
     }
+    let bubbles = match &args.bubbles {
+        Some(bubbles::Which::File(path)) => Some(path.as_path()),
+        _ => None,
+    };
+    let shore = match &args.shore {
+        Some(shore::Which::File(path)) => Some(path.as_path()),
+        _ => None,
+    };
+    let (camera, scene) = (args.camera.file.as_deref(), args.scene.as_deref());
+    written::check_pictures(&args.draw, &[camera, scene, bubbles, shore])?;
     if let Some(which) = &args.shore {
         return shore::run(args, which);
     }
@@ -247,42 +255,23 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     report(left.len(), failed)
 }
 
-/// Fails if a file that is written while the frames are drawn is one that is read, however its path is written.
+/// Fails if measurements or whitewater would be written over particle files.
 fn keep_inputs(
     args: &RenderArgs,
     all: &[Frame],
     keep: Option<&output::Target<particles::WriteFormat>>,
 ) -> Outcome<()> {
-    let measured = [("--timings", &args.draw.timings), ("--trace", &args.draw.trace)];
-    let measured = measured.map(|(flag, path)| path.iter().map(move |path| (flag, path.clone())));
     let of = |keep: &output::Target<_>| all.iter().map(|f| keep.path(f.number)).collect::<Vec<_>>();
     let made = keep.map(of).unwrap_or_default().into_iter();
-    let written = made.map(|path| ("--write-whitewater", path));
-    // What does not exist is no input. A link is written through.
-    let real = |path: &Path| std::fs::canonicalize(path).ok();
-    let written: Vec<_> = written
-        .chain(measured.into_iter().flatten())
-        .filter_map(|(flag, path)| Some((flag, real(&path)?, path)))
-        .collect();
-    if written.is_empty() {
-        return Ok(());
-    }
-    let others = [&args.camera.file, &args.scene].into_iter().flatten();
-    let mut inputs: HashSet<PathBuf> = others.filter_map(|path| real(path)).collect();
-    inputs.extend(all.iter().flat_map(|frame| frame.paths()).filter_map(real));
+    let made = made.map(|path| ("--write-whitewater", path));
+    let mut frames = all.to_vec();
     for named in &args.whitewater {
         if let Whitewater::Files { files, .. } = named {
-            let found = frames::files(std::slice::from_ref(files), false)?;
-            inputs.extend(found.iter().flat_map(|frame| frame.paths()).filter_map(real));
+            frames.extend(frames::files(std::slice::from_ref(files), false)?);
         }
     }
-    match written.iter().find(|(_, real, _)| inputs.contains(real)) {
-        Some((flag, _, path)) => {
-            let path = path.display();
-            Err(Failure::usage(format!("{flag}: {path} is an input; name another file")))
-        }
-        None => Ok(()),
-    }
+    let read = frames.iter().flat_map(|frame| frame.paths());
+    written::check(made.chain(written::measured(&args.draw)), read)
 }
 
 /// Fails if options are given that a scene without particles would ignore.

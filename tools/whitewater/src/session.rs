@@ -4,7 +4,7 @@
 pub mod room;
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use whitewater::GeneratorSettings;
 use whitewater::bubbles::BubbleConfig;
@@ -139,42 +139,7 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, V
     if let Some(path) = &args.trace {
         Times::check(path, true)?;
     }
-    check_written(args, &targets)?;
     Ok((targets, wanted))
-}
-
-/// Fails if a file would be written twice, or is one that the pictures are drawn with.
-fn check_written(args: &DrawArgs, targets: &[Target<Output>]) -> Outcome<()> {
-    let real = |path: &Path| std::fs::canonicalize(path).ok();
-    let environment = Some(Path::new(&args.environment)).filter(|path| *path != "sky");
-    let inputs: Vec<PathBuf> =
-        args.settings.as_deref().into_iter().chain(environment).filter_map(real).collect();
-    // Of the frames of a sequence, those that an input's name could be.
-    let numbers = |path: &Path| -> Vec<u64> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name.split(|c: char| !c.is_ascii_digit()).filter_map(|word| word.parse().ok()).collect()
-    };
-    let numbers: Vec<u64> = inputs.iter().flat_map(|path| numbers(path)).chain([0]).collect();
-    let pictures = args.outputs.iter().zip(targets).map(|(named, target)| {
-        ("--output", named, numbers.iter().map(|number| target.path(*number)).collect())
-    });
-    let timings = args.timings.iter().map(|path| ("--timings", path, vec![path.clone()]));
-    let trace = args.trace.iter().map(|path| ("--trace", path, vec![path.clone()]));
-    let mut written: Vec<&PathBuf> = Vec::new();
-    for (flag, named, paths) in pictures.chain(timings).chain(trace) {
-        // What does not exist is no input.
-        if let Some(path) = paths.iter().find(|p| real(p).is_some_and(|p| inputs.contains(&p))) {
-            let path = path.display();
-            return Err(Failure::usage(format!("{flag}: {path} is an input; name another file")));
-        }
-        if written.contains(&named) {
-            let named = named.display();
-            let why = format!("{flag}: {named} is named twice; name another file");
-            return Err(Failure::usage(why));
-        }
-        written.push(named);
-    }
-    Ok(())
 }
 
 /// Whether all pictures of a frame exist and are not to be drawn again. A film is always drawn as a whole.

@@ -75,6 +75,12 @@ impl SettingsFile {
         Self::parse(&text).map_err(|why| Failure::input(format!("{}: {why}", path.display())))
     }
 
+    /// Files that the settings name.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let named = [&self.shore.web, &self.shore.strip, &self.contact.mask_picture];
+        named.into_iter().filter_map(|path| path.as_deref())
+    }
+
     fn parse(text: &str) -> Result<Self, String> {
         if let Some(why) = renamed::find(text) {
             return Err(why);

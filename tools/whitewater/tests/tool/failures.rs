@@ -113,8 +113,12 @@ fn no_input_is_written() {
     folder.text("c.json", r#"{"eye":[0,0,3],"target":[0,0,0]}"#);
     folder.text("sky.exr", "a sky");
     folder.text("sky2.exr", "a sky");
+    folder.text("sky.0001.exr", "a sky");
     folder.text("s.json", "");
-    let names = "f_1.ply f_2.ply oil_1.ply a.csv w.csv c.json sky.exr sky2.exr s.json";
+    folder.text("w.toml", "[shore]\nweb = \"w.png\"\n");
+    folder.text("w.png", "a web");
+    let names =
+        "f_1.ply f_2.ply oil_1.ply a.csv w.csv c.json sky.exr sky2.exr sky.0001.exr s.json w.png";
     let names: Vec<&str> = names.split(' ').collect();
     let read = || -> Vec<Vec<u8>> {
         names.iter().map(|name| std::fs::read(folder.path(name)).unwrap()).collect()
@@ -135,11 +139,23 @@ fn no_input_is_written() {
     for (command, said) in [
         ("render f_1.ply -o sky.exr --environment ./sky.exr", "--output: sky.exr is an input"),
         ("render f_*.ply -o sky%d.exr --environment sky2.exr", "--output: sky2.exr is an input"),
+        (
+            "render f_*.ply -o sky.exr --environment sky.0001.exr",
+            "--output: sky.0001.exr is an input",
+        ),
         ("demo -o sky.exr --environment sky.exr", "--output: sky.exr is an input"),
         (
             "render --shore pool -o o.png --settings s.json --timings s.json",
             "--timings: s.json is an input",
         ),
+        (
+            "render --shore pool -o o.png --camera c.json --timings c.json",
+            "--timings: c.json is an input",
+        ),
+        ("demo -o o.png --camera ./c.json --trace c.json", "--trace: c.json is an input"),
+        ("render --shore c.json -o o.png --trace c.json", "--trace: c.json is an input"),
+        ("render --bubbles c.json -o o.png --trace c.json", "--trace: c.json is an input"),
+        ("render f_1.ply -o w.png --settings w.toml", "--output: w.png is an input"),
         ("render f_1.ply -o o.exr -o o.png -o o.exr", "--output: o.exr is named twice"),
         (
             "render f_1.ply -o o.png --timings t.json --trace t.json",
@@ -148,6 +164,8 @@ fn no_input_is_written() {
     ] {
         folder.run(&format!("{command} {SIZE}")).fails(2, &[said, "name another file"]);
     }
+    let pattern = folder.run("pattern w.png -o ./w.png");
+    pattern.fails(2, &["--output: ./w.png is an input; name another file"]);
     assert!(read() == before);
 }
 
