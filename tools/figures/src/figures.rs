@@ -324,7 +324,7 @@ const WAYS: [(&str, &str); 4] = [
     ("baseline: 40 iterations", "--sheets 1 --surface-foam none --rule fixed:40"),
     ("source, without foam", "--sheets 1 --surface-foam none --rule source"),
     ("source, with foam", "--sheets 1 --surface-foam auto --rule source"),
-    ("ours: constant width, two sheets, foam", "--surface-foam auto"),
+    ("default: constant width, two sheets, foam", "--surface-foam auto"),
 ];
 
 /// Largest allowed cost of each way relative to the baseline, without and with foam (the thesis's Table 5.1 has up to
@@ -420,5 +420,5 @@ fn flight(tool: &Tool, docs: &Path, scene: &str) -> Outcome<()> {
     let frames = [&[sequence(&folder, scene)][..], &more].concat();
     let curves = measure(tool, scene, &frames, &folder.join("camera.json"))?;
     let to = pictures(docs, &format!("cost-{scene}.svg"));
-    curves::plot(&format!("Fly-through, {scene}"), "frame / 15", &curves, &to)
+    curves::plot(&format!("Fly-through, {scene}"), "frame / 15 - 1", &curves, &to)
 }

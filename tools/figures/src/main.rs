@@ -74,9 +74,13 @@ fn run(args: &Args) -> Outcome<()> {
         let names: Vec<_> = figures::ALL.iter().map(|(name, _)| *name).collect();
         return Err(format!("there is no such figure; there are {}", names.join(", ")));
     }
+    let mut failed = Vec::new();
     for (name, draw) in all {
         eprintln!("figures: {name}");
-        draw(&tool, &args.docs)?;
+        if let Err(message) = draw(&tool, &args.docs) {
+            eprintln!("figures: {name}: {message}");
+            failed.push(*name);
+        }
     }
-    Ok(())
+    if failed.is_empty() { Ok(()) } else { Err(format!("not drawn: {}", failed.join(", "))) }
 }

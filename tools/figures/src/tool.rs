@@ -14,7 +14,7 @@ const CASTER: &str = "whitewater-raycast";
 /// Size of a panel's picture.
 pub const SIZE: (usize, usize) = (480, 270);
 
-/// Direction to the sun in all pictures: from the side.
+/// Direction to the sun in the pictures of own scenes ([`Tool::frame`]): from the side.
 const SUN: &str = "-0.75,0.62,0.3";
 
 /// The command-line tool, and the folder of scenes.
@@ -77,6 +77,10 @@ impl Tool {
         }
         let folder =
             tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
+        // Further arguments are one text, split at spaces.
+        if folder.path().display().to_string().contains(char::is_whitespace) {
+            return Err(format!("{}: TMPDIR must have no spaces", folder.path().display()));
+        }
         Ok(Self { program, caches: caches.to_owned(), folder })
     }
 
@@ -144,11 +148,11 @@ impl Tool {
         Ok(image::open(&written).map_err(|error| error.to_string())?.into_rgb8())
     }
 
-    /// The picture that `tools/demo` writes.
+    /// The picture that `tools/demo` writes, from the same options.
     pub fn demo(&self) -> Outcome<RgbImage> {
         let png = self.temporary("demo.png");
         let to = format!("--output={}", png.display());
-        self.run(&["demo", &to].map(str::to_owned))?;
+        self.run(&["demo", "--shutter=1/200", "--aperture=0.0066", &to].map(str::to_owned))?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
