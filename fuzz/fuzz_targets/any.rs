@@ -1,4 +1,4 @@
-//! Any bytes, with the hint that leads to this reader.
+//! Any bytes, without a hint: the reader follows from the first bytes.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -14,7 +14,7 @@ const STARTS: [(&[u8], &str); 8] = [
     (b"VARIABLES = x, y, z\nZONE T=\"1\"\n0 0 0\nZONE ", "dat"),
     (b"[[[0,1,2],[3,4,5]],", "json"),
     (b"{\"frame_1\":[[0,1,2]],\"frame_2\":", "json"),
-    (b"\x93NUMPY\x01\x00\x3f\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }", "npy"),
+    (b"\x93NUMPY\x01\x00\x3f\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3), }\n", "npy"),
     (b"", "xyz"),
 ];
 
