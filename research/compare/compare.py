@@ -133,7 +133,7 @@ def compare(mi, name, frame, options):
         either = wet | water
         numbers[variant] = measure(truth, light, either) | {
             "dry": measure(truth, light, ~either), "pixels": int(either.sum()), "lost": int((wet & ~water).sum()),
-            "extra": int((water & ~wet).sum()), "seconds": seconds, "path_traced_seconds": float(stored["seconds"]),
+            "extra": int((water & ~wet).sum()), "seconds": seconds, "path_traced_seconds": float(stored["seconds"]), "made": options.made,
         }
     save(options.out / f"{name}.png", np.concatenate(shown, 1))
     return numbers
@@ -159,17 +159,16 @@ def page(results, frames, options):
     of each variant, beside the first such numbers (`first` of a frame)."""
     variants = [name for name, _ in options.variant]
     names = [name for name in frames if all(variant in results.get(name, {}) for variant in variants)]
-    program = subprocess.run([options.whitewater, "--version"], capture_output=True, text=True).stdout.split("\n")[0]
-    commit = subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
-    made = ", ".join(f"{name} {version}" for name, version in versions().items())
     lines = [
         "# Frames beside a path tracer: results", "",
-        f"Written by `compare.py --table` on {datetime.date.today()} with {program}, commit {commit or 'unknown'}; {made}, "
-        f"{options.spp} paths per pixel{', denoised' if options.denoise else ''}; {options.size[0]}x{options.size[1]} pixels. "
+        f"Written by `compare.py --table` on {datetime.date.today()} {options.made}. "
         "[README.md](README.md) describes the columns' quantities and the limits of the path-traced picture. "
         "Light and contrast are those of exposed linear light (1 is white).", "",
         "Variants: " + "; ".join(f"*{name}*" + (f" is `{arguments}`" if arguments else " has no arguments") for name, arguments in options.variant) + ".", "",
     ]
+    for name, v in ((name, v) for name in names for v in variants):
+        made = results[name][v].get("made", "by an earlier version of this program")
+        lines += [f"*{name}*, variant *{v}*, was drawn {made}.", ""] if made != options.made else []
     head = ["frame", "of", *(f"FLIP, {v}" for v in variants), "mean light, path-traced", *(v for v in variants),
             "contrast, path-traced", *(v for v in variants), f"FLIP at first, {variants[0]}"]
     rows = [head, ["---"] * 2 + ["---:"] * (len(head) - 2)]
@@ -210,6 +209,12 @@ def main():
     parser.add_argument("--no-denoise", dest="denoise", action="store_false", help="leave the noise in")
     parser.add_argument("--mitsuba", default="llvm_ad_rgb", help="Mitsuba's variant [default: llvm_ad_rgb]")
     options = parser.parse_args()
+    if len(options.size) != 2 or min(options.size) < 1:
+        parser.error("--size: WIDTHxHEIGHT expected")
+    if options.spp < 1 or options.spp > 16 and options.spp % 16:
+        parser.error("--spp: up to 16, or a multiple of 16")
+    if any("=" not in text for text in options.variant or []):
+        parser.error("--variant: NAME=ARGUMENTS expected")
     options.variant = [text.split("=", 1) for text in options.variant or ["water=--surface-foam none --spray none", "default="]]
     frames = tomllib.loads(options.frames.read_text())
     wanted = options.only or list(frames)
@@ -222,6 +227,10 @@ def main():
 
     mi.set_variant(options.mitsuba)
     mi.set_log_level(mi.LogLevel.Error)
+    program = subprocess.run([options.whitewater, "--version"], capture_output=True, text=True).stdout.split("\n")[0]
+    commit = subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    options.made = (f"with {program}, commit {commit or 'unknown'}; {', '.join(f'{k} {v}' for k, v in versions().items())}, "
+                    f"{options.spp} paths per pixel{', denoised' if options.denoise else ''}; {'x'.join(map(str, options.size))} pixels")
     stored = options.out / "numbers.json"
     results = json.loads(stored.read_text()) if stored.exists() else {}
     for name in wanted:

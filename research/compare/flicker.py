@@ -12,6 +12,7 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -36,6 +37,8 @@ def run(command):
 def rest(sequence, folder):
     """Files of a pool at rest; the pattern of their names."""
     points = particles.pool(sequence["radius"], sequence["box"], **sequence["pool"])
+    for old in folder.glob("rest_*.npz"):
+        old.unlink()
     random = np.random.default_rng(2)
     for k in range(sequence["frames"]):
         moved = points + random.normal(0, 0.002 * sequence["radius"], points.shape)
@@ -55,7 +58,10 @@ def draw(name, sequence, options):
     elif "simulate" in sequence:
         kind = sequence["simulate"]
         cache = options.out / f"cache_{kind}"
-        if not (cache / "scene.json").exists():
+        # scene.json is written with each frame, so only the last frame says that all are there.
+        last = int(re.search(r"--frames[= ]\d+-(\d+)", sequence["arguments"])[1])
+        if not (cache / f"{kind}_{last:04}.bgeo").exists():
+            shutil.rmtree(cache, ignore_errors=True)
             run([options.whitewater, "simulate", kind, "--out", cache])
         source = cache / f"{kind}_%04d.bgeo"
         arguments += ["--scene", cache / "scene.json"]
@@ -65,6 +71,9 @@ def draw(name, sequence, options):
                *arguments, *shlex.split(options.arguments)]
     if not options.keep:
         command.append("--overwrite")
+        # All frames of the folder are measured, so none of an earlier run may stay.
+        for old in [*folder.glob("[sw].*.exr"), *folder.glob("[sw].*.png")]:
+            old.unlink()
     run([*command, "-o", folder / "s.%04d.exr", "-o", folder / "s.%04d.png"])
     run([*command, "--surface-foam", "none", "--spray", "none", "-o", folder / "w.%04d.exr", "-o", folder / "w.%04d.png"])
     return folder
@@ -79,8 +88,8 @@ def grown(mask, pixels):
     return mask
 
 
-def shaded(depth, fov=36.0):
-    """Brightness, 0 to 255, of what has an eye depth, lit from the eye: the cosine of its slope."""
+def shaded(depth, fov):
+    """Brightness, 0 to 255, of what has an eye depth, lit from the eye: the cosine of its slope. `fov`: degrees, vertical."""
     rows, columns = depth.shape
     scale = 2 * np.tan(np.radians(fov) / 2) / rows
     x = (np.arange(columns) + 0.5 - columns / 2) * scale
@@ -103,9 +112,10 @@ class Frame:
             bitmap = mi.Bitmap(str(folder / f"{kind}.{number}.exr"))
             names = [field.name for field in bitmap.struct_()]
             data = np.array(bitmap).astype("f4")
-            return {name: data[..., i] for i, name in enumerate(names)}
+            drawn_with = json.loads(bitmap.metadata()["whitewater"])
+            return {name: data[..., i] for i, name in enumerate(names)}, json.loads(drawn_with["camera"])["fov_y_degrees"]
 
-        water = layers("w")
+        water, fov = layers("w")
         self.wet = water["water.depth.Z"] < 1e9
         self.vectors = np.stack([water["motion.X"], water["motion.Y"]], -1)
         self.motion = np.hypot(water["motion.X"], water["motion.Y"])
@@ -113,7 +123,7 @@ class Frame:
         self.pictures = {"default": picture("s"), "water": picture("w")}
         for name, layer in (("particles", "water.depth.Z"), ("surface", "water.surface.Z")):
             depth = water[layer]
-            self.pictures[name] = np.where(depth < 1e9, shaded(np.where(depth < 1e9, depth, 0)), 0)
+            self.pictures[name] = np.where(depth < 1e9, shaded(np.where(depth < 1e9, depth, 0), fov), 0)
 
 
 def kinds(before, now, after):
@@ -225,6 +235,9 @@ def main():
     mi.set_variant("scalar_rgb")
     stored = options.out / "flicker.json"
     results = json.loads(stored.read_text()) if stored.exists() else {}
+    ran = lambda *command: subprocess.run(command, capture_output=True, text=True).stdout.split("\n")[0]
+    made = (f"with {ran(options.whitewater, '--version')}, commit {ran('git', '-C', HERE, 'rev-parse', '--short', 'HEAD')}; "
+            f"{options.size} pixels" + (f"; `{options.arguments}`" if options.arguments else ""))
     for name in wanted:
         folder = draw(name, sequences[name], options)
         numbers = sorted(re.fullmatch(r"s\.(.*)\.exr", path.name)[1] for path in folder.glob("s.*.exr"))
@@ -235,17 +248,16 @@ def main():
             map_ = np.minimum(8 * map_, 255)
             shown = np.where(mask[..., None], map_[..., None], [0, 0, 90])
             Image.fromarray(np.concatenate([picture, shown.astype("u1")], 1)).save(options.out / f"{name}_{kind.replace(' ', '_')}.png")
-        results[name] = {"kinds": of_kinds, "numbers": numbers, "pixels": frames[0].wet.size}
+        results[name] = {"kinds": of_kinds, "numbers": numbers, "pixels": frames[0].wet.size, "made": made}
         stored.write_text(json.dumps(results, indent=1))
         (options.out / "flicker.md").write_text(table(results))
         print(table({name: results[name]}), end="", flush=True)
     if options.table:
-        ran = lambda *command: subprocess.run(command, capture_output=True, text=True).stdout.split("\n")[0]
+        others = "".join(f"*{name}* was measured {result.get('made', 'by an earlier version of this program')}.\n\n"
+                         for name, result in results.items() if result.get("made") != made)
         options.table.write_text(
-            "# Flicker: results\n\n"
-            f"Written by `flicker.py --table` on {datetime.date.today()} with {ran(options.whitewater, '--version')}, commit "
-            f"{ran('git', '-C', HERE, 'rev-parse', '--short', 'HEAD')}; {options.size} pixels. [README.md](README.md#flicker) describes "
-            "the columns.\n\n" + table(results))
+            f"# Flicker: results\n\nWritten by `flicker.py --table` on {datetime.date.today()} {made}. "
+            f"[README.md](README.md#flicker) describes the columns.\n\n{others}{table(results)}")
 
 
 if __name__ == "__main__":

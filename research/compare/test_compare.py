@@ -62,14 +62,17 @@ class Kept(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_rows(self):
-        one = {"flip": 0.25, "mean": [0.2, 0.1], "deviation": [0.4, 0.5], "dry": {"flip": 0.1}, "pixels": 100, "lost": 5, "extra": 1}
-        options = types.SimpleNamespace(variant=[["water", "--spray none"], ["default", ""]], whitewater="true", spp=96, denoise=True, size=[640, 360])
+        one = {"flip": 0.25, "mean": [0.2, 0.1], "deviation": [0.4, 0.5], "dry": {"flip": 0.1}, "pixels": 100, "lost": 5, "extra": 1, "made": "with X"}
+        options = types.SimpleNamespace(variant=[["water", "--spray none"], ["default", ""]], made="with X")
         frames = {"pool": {"of": "made here", "first": {"flip": 0.5, "light": 2.0}}, "late_dam": {"of": "X"}}
         whole, compare.versions = compare.versions, lambda: {"mitsuba": "3"}
         try:
             text = compare.page({"pool": {"water": one, "default": one}}, frames, options)
+            mixed = compare.page({"pool": {"water": one | {"made": "with Y"}, "default": one}}, frames, options)
         finally:
             compare.versions = whole
+        self.assertNotIn("with Y", text)
+        self.assertIn("*pool*, variant *water*, was drawn with Y.", mixed)
         self.assertIn("| pool | made here | 0.250 | 0.250 | 0.200 | 0.100 | 0.100 | 0.400 | 0.500 | 0.500 | 0.500 |", text)
         self.assertIn("| pool | 0.50 | 0.50 | 1.25 | 1.25 | 2.00 | 0.050, 0.010 | 0.100 |", text)
         self.assertNotIn("late_dam", text)
@@ -97,11 +100,11 @@ class Flicker(unittest.TestCase):
 
     def test_shaded(self):
         # A plane across the view is brightest; one that leans by 45 degrees has its cosine in the middle.
-        flat = flicker.shaded(np.full((32, 32), 2.0))
+        flat = flicker.shaded(np.full((32, 32), 2.0), 36.0)
         self.assertAlmostEqual(flat[16, 16], 255, delta=1)
         scale = 2 * np.tan(np.radians(18)) / 32
         slope = (np.arange(32) - 15.5) * scale
-        leaning = flicker.shaded(np.tile(2.0 / (1 - slope), (32, 1)))
+        leaning = flicker.shaded(np.tile(2.0 / (1 - slope), (32, 1)), 36.0)
         self.assertAlmostEqual(leaning[16, 16], 255 * np.sqrt(0.5), delta=6)
 
     def test_followed(self):
