@@ -43,6 +43,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments: Vec<String> = std::env::args().skip(1).collect();
     let validate = arguments.iter().any(|argument| argument == "--validate");
     arguments.retain(|argument| argument != "--validate");
+    if arguments.len() > 1 || arguments.iter().any(|argument| argument.starts_with('-')) {
+        return Err("usage: whitewater-embed [--validate] [PICTURE.ppm]".into());
+    }
     let (pixels, timings) = draw(validate, |_| ())?;
     for pass in &timings {
         println!("{:<20}{:>9.3} ms", pass.name, pass.nanoseconds * 1e-6);

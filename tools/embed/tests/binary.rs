@@ -1,5 +1,8 @@
 //! Runs the program as a user does: it is silent under validation, and its picture shows water.
 
+#[path = "../../../tests/support/skipped.rs"]
+mod skipped;
+
 use std::process::Command;
 
 #[test]
@@ -16,7 +19,7 @@ fn draws_water_and_is_silent() {
     let mut result = run(&["--validate"]);
     let required = std::env::var("WHITEWATER_REQUIRE_VALIDATION").is_ok_and(|value| value == "1");
     if !result.0 && result.2.contains("ERROR_LAYER_NOT_PRESENT") && !required {
-        eprintln!("skipped: validation; VK_LAYER_KHRONOS_validation is not installed");
+        skipped::skipped("validation: VK_LAYER_KHRONOS_validation is not installed");
         result = run(&[]);
     }
     let (success, out, err) = result;
@@ -33,4 +36,15 @@ fn draws_water_and_is_silent() {
     let water = pixels.chunks(3).filter(|pixel| *pixel != &pixels[..3]).count();
     assert!((960 * 540 / 10..960 * 540 / 2).contains(&water), "{water} pixels of water");
     std::fs::remove_dir_all(&folder).expect("the temporary folder can go");
+}
+
+/// A mistyped option is no name of a picture.
+#[test]
+fn unknown_options_are_refused() {
+    for arguments in [&["--validat"][..], &["--help"], &["a.ppm", "b.ppm"]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_whitewater-embed"));
+        let output = command.args(arguments).output().expect("the program starts");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(!output.status.success() && told.contains("usage: "), "{arguments:?}: {told}");
+    }
 }

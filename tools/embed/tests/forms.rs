@@ -4,6 +4,8 @@
 #[allow(dead_code)] // its `main`
 #[path = "../src/main.rs"]
 mod host;
+#[path = "../../../tests/support/skipped.rs"]
+mod skipped;
 
 use host::{Picture, draw, take_messages};
 use whitewater::water::{Exit, Gate, Smoothing, Splat};
@@ -18,7 +20,7 @@ fn all_forms_draw_the_same() {
             let required = std::env::var("WHITEWATER_REQUIRE_VALIDATION").is_ok_and(|v| v == "1");
             let absent = error.to_string().contains("ERROR_LAYER_NOT_PRESENT");
             assert!(absent && !required, "{error}");
-            eprintln!("skipped: validation; VK_LAYER_KHRONOS_validation is not installed");
+            skipped::skipped("validation: VK_LAYER_KHRONOS_validation is not installed");
             false
         }
     };

@@ -26,8 +26,7 @@ const STEPS: [f32; 14] =
 /// Options of the comparison.
 #[derive(ClapArgs)]
 pub struct CompareArgs {
-    /// Folder for the pictures: whitewater's, and for each ray-caster the converged picture and the one at the chosen
-    /// step
+    /// Folder for the pictures: whitewater's, the one of each ray-caster at the chosen step, and the converged ones
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
 }
@@ -235,7 +234,7 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
     let drawn = draw().map_err(line);
     let device = headless.finish().map_err(line)?;
     let (frames, intensity, scene) = drawn?;
-    let intensity = intensity.ok_or("whitewater kept no layer foam.intensity")?;
+    let intensity = intensity.ok_or("whitewater kept no layer whitewater.intensity")?;
     Ok((device, Ours { times: median(frames), intensity, scene }))
 }
 
@@ -266,8 +265,15 @@ impl Casting<'_> {
         loop {
             step *= 0.5;
             let coarser = std::mem::replace(&mut finer, self.draw(step)?);
-            if step <= FINEST || mean_flip(&coarser, &finer) <= CONVERGED {
+            let change = mean_flip(&coarser, &finer);
+            if change <= CONVERGED {
                 break;
+            }
+            if step <= FINEST {
+                let name = self.method.name();
+                return Err(format!(
+                    "{name}: not converged: step {step} changes it by FLIP {change}"
+                ));
             }
         }
         Ok(Converged { step, ours: mean_flip(ours, &finer), picture: finer })

@@ -120,11 +120,11 @@ pub struct Settings {
     pub step: f32,
     /// Samples are shifted from pixel to pixel by a pattern of 4 × 4 instead of lying side by side; default true.
     pub shifted: bool,
-    /// m of the intensity ρ^e / (m + ρ^e), (0, ∞), default 3.
+    /// m of the intensity ρ^e / (m + ρ^e), [1e-6, 1e6], default 3.
     pub half: f32,
-    /// Exponent e of the intensity, (0, ∞), default 1.25.
+    /// Exponent e of the intensity, [0.1, 16], default 1.25.
     pub exponent: f32,
-    /// Intensity at which a ray ends, (0, 1]; default 1 − 1/512, half a step of 8 bits.
+    /// Intensity at which a ray ends, [1e-6, 1]; default 1 − 1/512, half a step of 8 bits.
     pub opaque: f32,
     /// Edge of a tile in pixels, 4, 8 or 16; for [`Method::Plain`] the edge of a group of rays. `None` takes the
     /// fastest measured value.
@@ -215,7 +215,7 @@ pub struct Input<'a> {
     pub radius: f32,
     /// The view; it must be a perspective one.
     pub camera: &'a Camera,
-    /// Width and height in pixels, at least 1.
+    /// Width and height in pixels, at least 1 each, and at most 4 194 240 pixels in all.
     pub size: [u32; 2],
     /// The opaque scene that ends the rays.
     pub scene: &'a SceneDepth,

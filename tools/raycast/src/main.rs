@@ -49,12 +49,12 @@ struct Args {
     #[arg(long, value_name = "N", default_value_t = 5, global = true,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
-    /// Ray-casting method
-    #[arg(long, value_enum, default_value_t = MethodArg::Kernel)]
-    method: MethodArg,
-    /// Distance between a ray's samples in particle radii
-    #[arg(long, value_name = "RADII", default_value_t = 0.5)]
-    step: f32,
+    /// Ray-casting method [default: kernel]
+    #[arg(long, value_enum)]
+    method: Option<MethodArg>,
+    /// Distance between a ray's samples in particle radii [default: 0.5]
+    #[arg(long, value_name = "RADII")]
+    step: Option<f32>,
     /// Align all samples, instead of shifting them from pixel to pixel
     #[arg(long, global = true)]
     even: bool,
@@ -99,7 +99,14 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 fn main() -> ExitCode {
     let args = Args::parse();
     let result = match &args.command {
-        Some(Command::Compare(how)) => compare::run(&args, how),
+        Some(Command::Compare(how)) => {
+            if args.method.is_some() || args.step.is_some() || args.output.is_some() || args.timings
+            {
+                let message = "compare takes no --method, --step, --output or --timings\n";
+                Args::command().error(ErrorKind::ArgumentConflict, message).exit();
+            }
+            compare::run(&args, how)
+        }
         None => draw(&args),
     };
     match result {
@@ -147,13 +154,14 @@ fn draw(args: &Args) -> Outcome<()> {
         let message = "nothing to do: give -o OUT.png, or --timings, or both\n";
         Args::command().error(ErrorKind::MissingRequiredArgument, message).exit();
     }
-    let method = match args.method {
+    let method = match args.method.unwrap_or(MethodArg::Kernel) {
         MethodArg::Kernel => Method::Kernel,
         MethodArg::Grid => Method::Grid,
         MethodArg::Plain => Method::Plain,
     };
     let [width, height] = args.size;
-    let settings = settings(args, args.step);
+    let step = args.step.unwrap_or(0.5);
+    let settings = settings(args, step);
     let shot = compare::Shot::new(args);
     let (device, scene) = compare::scene_depth(device(args)?, &shot)?;
     let input = shot.input(&scene);
@@ -166,7 +174,7 @@ fn draw(args: &Args) -> Outcome<()> {
             args.sea.name(),
             args.particles
         );
-        println!("{} at a step of {} radii:", method.name(), args.step);
+        println!("{} at a step of {step} radii:", method.name());
         for (name, ms) in &times {
             println!("{name:<12} {ms:>10.3} ms");
         }

@@ -321,7 +321,7 @@ impl<'d> Queue<'d> {
                 vulkan.cmd_reset_query_pool(self.cmd, self.queries, 0, 2 * MOST_SCOPES);
             }
         }
-        let mut frame = Frame { queue: self, names: Vec::new() };
+        let mut frame = Frame { queue: self, names: Vec::new(), dispatches: 0 };
         record(&mut frame)?;
         let names = frame.names;
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.cmd)];
@@ -400,6 +400,7 @@ impl Drop for Queue<'_> {
 pub struct Frame<'q> {
     queue: &'q Queue<'q>,
     names: Vec<&'static str>,
+    dispatches: u32,
 }
 
 impl Frame<'_> {
@@ -492,12 +493,17 @@ impl Frame<'_> {
             return Ok(());
         }
         debug_assert_eq!(buffers.len(), pass.buffers as usize);
+        self.dispatches += 1;
+        if self.dispatches > MOST_DISPATCHES {
+            let why = format!("more than {MOST_DISPATCHES} dispatches: a coarser step needs fewer");
+            return Err(Error::BadInput { field: "Settings.step", why });
+        }
         let vulkan = &self.queue.device.device;
         let layouts = [pass.set_layout];
         let info = vk::DescriptorSetAllocateInfo::default()
             .descriptor_pool(self.queue.sets)
             .set_layouts(&layouts);
-        // SAFETY: the pool has room for the dispatches of a frame.
+        // SAFETY: the pool has room for MOST_DISPATCHES sets.
         let set = unsafe { vulkan.allocate_descriptor_sets(&info) }
             .context("vkAllocateDescriptorSets")?[0];
         let infos: Vec<_> = std::iter::once(block)

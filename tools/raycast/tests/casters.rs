@@ -1,5 +1,7 @@
 //! All ray-casters against their twin, against closed forms, against each other and against whitewater.
 
+#[path = "../../../tests/support/skipped.rs"]
+mod skipped;
 mod twin;
 
 use std::ops::Deref;
@@ -34,7 +36,7 @@ impl Gpu {
         let required = std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
         let device = match make(true) {
             Err(Error::Missing { what, .. }) if what.contains("validation") && !required => {
-                eprintln!("raycast: NO VALIDATION: {what} is missing");
+                skipped::skipped(&format!("validation: {what} is missing"));
                 make(false)
             }
             made => made,

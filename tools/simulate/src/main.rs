@@ -44,7 +44,19 @@ impl Arguments {
                 files.push(word.into());
             }
         }
+        if files.is_empty() {
+            return Err(format!("no file given\n{USAGE}").into());
+        }
         Ok(Self { options, files })
+    }
+
+    /// A number above 0, or none if the option is not given.
+    fn positive(&self, name: &str) -> Result<Option<f32>> {
+        match self.text(name).map(str::parse::<f32>) {
+            None => Ok(None),
+            Some(Ok(value)) if value > 0.0 && value.is_finite() => Ok(Some(value)),
+            Some(_) => Err(format!("--{name}: a number above 0 expected").into()),
+        }
     }
 
     fn text(&self, name: &str) -> Option<&str> {
@@ -52,22 +64,13 @@ impl Arguments {
         found.map(|(_, value)| value.as_str())
     }
 
-    fn number<T: std::str::FromStr>(&self, name: &str, default: T) -> Result<T> {
-        match self.text(name) {
-            None => Ok(default),
-            Some(text) => {
-                text.parse().map_err(|_| format!("--{name}: '{text}' is no such number").into())
-            }
-        }
-    }
-
     fn vector(&self, name: &str, default: Vec3) -> Result<Vec3> {
         let Some(text) = self.text(name) else {
             return Ok(default);
         };
-        let parts: Vec<f32> = text.split(',').filter_map(|part| part.parse().ok()).collect();
-        match parts.as_slice() {
-            &[x, y, z] => Ok(Vec3::new(x, y, z)),
+        let parts: Option<Vec<f32>> = text.split(',').map(|part| part.parse().ok()).collect();
+        match parts.as_deref() {
+            Some(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
             _ => Err(format!("--{name}: '{text}' is not X,Y,Z").into()),
         }
     }
@@ -123,19 +126,23 @@ fn statistics(path: &Path, out: &mut impl Write) -> Result<()> {
 }
 
 fn draw(arguments: &Arguments) -> Result<()> {
-    let parallel: f32 = arguments.number("ortho", 0.0)?;
+    let parallel = arguments.positive("ortho")?;
+    let fov = arguments.positive("fov")?;
+    if fov.is_some_and(|degrees| degrees >= 180.0) {
+        return Err("--fov: less than 180 degrees expected".into());
+    }
     for path in &arguments.files {
         let (scene, turn) = scene_of(path)?;
         let camera = preview::Camera {
             eye: arguments.vector("eye", scene.view.eye)?,
             target: arguments.vector("target", scene.view.target)?,
-            fov: if parallel > 0.0 { 0.0 } else { arguments.number("fov", scene.fov)? },
-            width: parallel,
+            fov: if parallel.is_some() { 0.0 } else { fov.unwrap_or(scene.fov) },
+            width: parallel.unwrap_or(0.0),
         };
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let suffix = arguments.text("suffix").unwrap_or_default();
         let picture = path.with_file_name(format!("{stem}{suffix}.png"));
-        let spacing = arguments.number("spacing", scene.spacing)?;
+        let spacing = arguments.positive("spacing")?.unwrap_or(scene.spacing);
         preview::draw(&scene, turn, &Frame::read(path)?, spacing, camera, &picture)?;
         println!("{}", picture.display());
     }
@@ -153,6 +160,10 @@ fn run() -> Result<()> {
             let arguments = Arguments::parse(words, &[])?;
             arguments.files.iter().try_for_each(|path| statistics(path, &mut std::io::stdout()))
         }
+        Some("-h" | "--help") => {
+            println!("{USAGE}");
+            Ok(())
+        }
         _ => Err(USAGE.into()),
     }
 }
@@ -164,5 +175,29 @@ fn main() -> ExitCode {
             eprintln!("{error}");
             ExitCode::FAILURE
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(words: &str) -> Result<Arguments> {
+        Arguments::parse(words.split(' ').map(str::to_owned), &["eye", "fov"])
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused() {
+        let eye = |text: &str| parse(&format!("a.bgeo --eye {text}"))?.vector("eye", Vec3::ZERO);
+        assert_eq!(eye("1,2,3").expect("a vector"), Vec3::new(1.0, 2.0, 3.0));
+        for text in ["1,abc,2,3", "1,2", "1,2,3,4", ""] {
+            assert!(eye(text).is_err(), "{text}");
+        }
+        let fov = |text: &str| parse(&format!("a.bgeo --fov {text}"))?.positive("fov");
+        assert_eq!(fov("40").expect("a number"), Some(40.0));
+        for text in ["0", "-1", "NaN", "inf", "x"] {
+            assert!(fov(text).is_err(), "{text}");
+        }
+        assert!(parse("--fov 40").is_err(), "no file");
     }
 }
