@@ -1327,6 +1327,8 @@ impl Settings {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
         settings.water.medium = settings.water.medium.thinned(1.0 / units_per_metre);
+        settings.water.wavelets.length *= units_per_metre;
+        settings.water.wavelets.gravity *= units_per_metre;
         settings.surface_foam = SurfaceFoamSettings::of_spacing(spacing);
         settings.whitewater = WhitewaterSettings::of_spacing(spacing);
         settings.bubbles.crossfade.near *= units_per_metre;

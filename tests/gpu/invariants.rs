@@ -621,33 +621,76 @@ fn the_last_interleaved_particle_is_drawn() {
     compare::same("interleaved-last", &found.depth, &expected.depth);
 }
 
-/// A look in metres and in centimetres: `Settings::new` scales all settings by spacing and unit.
+/// Numbers in a value's `{:#?}`, each with the names of its field and of all that contain it.
+fn numbers(value: &impl std::fmt::Debug) -> Vec<(String, f32)> {
+    let (mut names, mut found) = (Vec::new(), Vec::new());
+    for line in format!("{value:#?}").lines().map(str::trim) {
+        let (name, rest) = line.split_once(": ").unwrap_or(("", line));
+        if rest.ends_with(['{', '(', '[']) {
+            names.push(name.to_owned());
+        } else if rest.starts_with(['}', ')', ']']) {
+            names.pop();
+        } else if let Ok(number) = rest.trim_end_matches(',').parse() {
+            let path = names.iter().map(String::as_str).chain([name]);
+            let path: Vec<_> = path.filter(|part| !part.is_empty()).collect();
+            found.push((path.join("."), number));
+        }
+    }
+    found
+}
+
+/// The settings that follow from spacing and unit, with the powers of the two. The products with
+/// powers of two are exact, and all other numbers stay as they are.
 #[test]
 fn settings_follow_from_spacing_and_unit() {
-    let (metres, others) =
-        (whitewater::Settings::new(0.05, 1.0), whitewater::Settings::new(5.0, 100.0));
-    let near = |a: f32, b: f32| assert!((a - b).abs() <= 1.0e-5 * a.abs(), "{a} {b}");
-    near(100.0 * metres.water.radius(), others.water.radius());
-    near(metres.surface_foam.extinction, 100.0 * others.surface_foam.extinction);
-    near(100.0 * metres.surface_foam.min_thickness, others.surface_foam.min_thickness);
-    near(100.0 * metres.whitewater.radius, others.whitewater.radius);
-    near(100.0 * metres.bubbles.crossfade.near, others.bubbles.crossfade.near);
-    near(100.0 * metres.shore.shoreline.sea_reach, others.shore.shoreline.sea_reach);
-    near(metres.shore.shoreline.layers[1].scale, 100.0 * others.shore.shoreline.layers[1].scale);
-    near(100.0 * metres.shore.contact.depth, others.shore.contact.depth);
-    let whitewater::water::Medium::Physical { absorption: [a, ..], .. } = metres.water.medium
-    else {
-        panic!("a pool")
-    };
-    let whitewater::water::Medium::Physical { absorption: [b, ..], .. } = others.water.medium
-    else {
-        panic!("a pool")
-    };
-    near(a, 100.0 * b);
+    const POWERS: [(&str, [i32; 2]); 27] = [
+        ("water.spacing", [1, 0]),
+        ("water.medium.absorption", [0, -1]),
+        ("water.medium.scattering", [0, -1]),
+        ("water.wavelets.length", [0, 1]),
+        ("water.wavelets.gravity", [0, 1]),
+        ("surface_foam.extinction", [-1, 0]),
+        ("surface_foam.front_extinction", [-1, 0]),
+        ("surface_foam.front_depth", [1, 0]),
+        ("surface_foam.min_thickness", [1, 0]),
+        ("surface_foam.shadow", [-1, 0]),
+        ("whitewater.radius", [1, 0]),
+        ("bubbles.crossfade.near", [0, 1]),
+        ("bubbles.crossfade.far", [0, 1]),
+        ("shore.shoreline.sea_reach", [0, 1]),
+        ("shore.shoreline.land_reach", [0, 1]),
+        ("shore.shoreline.frequency_noise.scale", [0, -1]),
+        ("shore.shoreline.speed_noise.scale", [0, -1]),
+        ("shore.shoreline.layers.scale", [0, -1]),
+        ("shore.shoreline.layers.speed", [0, 1]),
+        ("shore.shoreline.texture_warp.amplitude", [0, 1]),
+        ("shore.shoreline.texture_warp.scale", [0, -1]),
+        ("shore.shoreline.texture_warp_velocity", [0, 1]),
+        ("shore.shoreline.threshold_noise.scale", [0, -1]),
+        ("shore.shoreline.rise_noise.scale", [0, -1]),
+        ("shore.contact.depth", [0, 1]),
+        ("shore.contact.mask_scale", [0, -1]),
+        ("shore.contact.mask_speed", [0, 1]),
+    ];
+    let metres = whitewater::Settings::new(0.05, 1.0);
+    let (from, to) = (numbers(&metres), numbers(&whitewater::Settings::new(0.1, 8.0)));
+    assert_eq!(from.len(), to.len());
+    let mut alike = 0;
+    for ((name, a), (_, b)) in from.iter().zip(&to) {
+        let power = POWERS.iter().find(|(listed, _)| listed == name);
+        alike += usize::from(power.is_none());
+        let [spacing, unit] = power.map_or([0; 2], |(_, powers)| *powers);
+        assert_eq!(*b, a * 2.0_f32.powi(spacing) * 8.0_f32.powi(unit), "{name}");
+    }
+    for (listed, _) in POWERS {
+        assert!(from.iter().any(|(name, _)| name == listed), "{listed} is no setting");
+    }
+    // A new number that scales belongs to the list, another one to this count.
+    assert_eq!(alike, 182, "numbers that are not listed");
     // The Weber number's scale describes the same particles at the same speed.
     let [a, b] = [(0.05, 1.0), (5.0, 100.0)].map(|(spacing, unit)| {
         whitewater::water::WeberSettings::weber_in(spacing, unit, 1.0).scale * unit * unit
     });
-    near(a, b);
+    assert!((a - b).abs() <= 1.0e-5 * a.abs(), "{a} {b}");
     assert_eq!(metres, whitewater::Settings::default());
 }
