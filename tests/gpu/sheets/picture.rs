@@ -441,7 +441,7 @@ fn the_back_sheets_levels_pass_without_a_step() {
     let gpu = Gpu::shared();
     let size = extent(160, 100);
     // So few iterations that the surfaces of two levels differ clearly.
-    let config = two(size).with(|it| {
+    let config = coarsening(two(size)).with(|it| {
         it.smoothing_level = 0;
         it.thickness_level = 0;
         it.max_iterations = 6;
@@ -454,6 +454,7 @@ fn the_back_sheets_levels_pass_without_a_step() {
         shot.settings.water.smoothing_width = 1.01_f32.powi(step);
         let drawn = rig.draw(&shot);
         let params = params(&shot, config.max_iterations);
+        assert_eq!((drawn.coarser.len(), of(&drawn).coarser.len()), (3, 2), "the levels drawn");
         let levels = Levels { view: shot.view(size), first: 0, coarser: 3, params };
         let level = |i: usize| {
             let (x, y) = (i % 160, i / 160);
