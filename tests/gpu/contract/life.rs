@@ -6,11 +6,12 @@ use whitewater::water::{Convolution, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Error, Slot};
 
 use crate::support::device::Gpu;
+use crate::support::host::Texture;
 use crate::support::rig::{Rig, config, extent};
 use crate::support::scenes::Lens;
 use crate::support::{compare, slow};
 
-use super::flight::{launch, output_of};
+use super::flight::{Flight, launch, output_of};
 use super::{sunny, water};
 
 #[test]
@@ -49,7 +50,15 @@ pub fn convolved(terms: u32, bits: u32) -> Option<Shadows> {
     Some(Shadows::Convolution(Convolution { terms, texels: 48, bits }))
 }
 
-/// Every part of the configuration changes while frames of the old one are in flight.
+/// Waits for a frame, which must show what is expected of it.
+fn land(rig: &mut Rig<'_>, number: u32, (flight, _shade): (Flight, Option<Texture>)) {
+    rig.stub.wait(number % 2);
+    let name = format!("reconfigure-{number}");
+    compare::same_color(&name, &output_of(rig, &flight), &flight.expected.output);
+    rig.collect(Slot(number % 2));
+}
+
+/// Every part of the configuration changes while a frame of the old one is in flight.
 #[test]
 fn reconfigure_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
@@ -145,31 +154,32 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         }),
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
+    // The frame in flight, with its number.
     let mut flight = None;
     // Each configuration needs two renderers, so the normal test takes every third one.
     let some = configs.into_iter().step_by(if slow() { 1 } else { 3 });
-    for (i, config) in some.chain([base]).enumerate() {
+    for (i, config) in (0..).zip(some.chain([base])) {
         let anew = rig.renderer().reconfigure(&config).expect("reconfigure");
         assert_eq!(anew, rig.config.environment_size != config.environment_size);
         assert_eq!(*rig.renderer().config(), config);
+        if let Some((last, flight)) = flight.take() {
+            assert!(rig.renderer().retired() > 0, "{i}: the old objects wait for their frame");
+            land(&mut rig, last, flight);
+        }
         rig.config = config;
         if anew {
             rig.set_up();
             rig.light();
         }
         let mut shot = water(config.extent, Lens::Standard);
-        let _shade = sunny(&rig, &mut shot);
+        let shade = sunny(&rig, &mut shot);
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
-        let name = format!("reconfigure-{i}");
-        let now = launch(&mut rig, i as u32 % 2, &shot, expected);
-        // The frame before is still in flight when the configuration changes.
-        rig.stub.wait(i as u32 % 2);
-        compare::same_color(&name, &output_of(&rig, &now), &now.expected.output);
-        drop(flight.replace(now));
-        rig.collect(Slot((i as u32 + 1) % 2));
+        let now = launch(&mut rig, i % 2, &shot, expected);
+        flight = Some((i, (now, shade)));
     }
-    rig.collect(Slot(0));
-    rig.collect(Slot(1));
+    if let Some((last, flight)) = flight {
+        land(&mut rig, last, flight);
+    }
     assert_eq!(rig.renderer().retired(), 0);
     let bad = base.with(|it| it.max_particles = 0);
     assert!(matches!(rig.renderer().reconfigure(&bad), Err(Error::BadInput { .. })));
