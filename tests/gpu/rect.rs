@@ -6,7 +6,7 @@ use whitewater::water::{Gate, Shading, Smoothing, Splat};
 use crate::invariants::same_sheets;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, Rig, Shot, config, extent, is_around};
+use crate::support::rig::{Drawn, Rig, Shot, coarsening, config, extent, is_around};
 use crate::support::scenes::{self, Lens};
 use crate::support::slow;
 
@@ -58,7 +58,7 @@ fn ways() -> Vec<(&'static str, Config)> {
         ("query", sums.with(|it| it.smoothing = Some(Smoothing::Query(Gate::VertexCull)))),
         ("depth", sums.with(|it| it.depth_splat = Some(Splat::Raster))),
         ("stored", sums.with(|it| it.composite = Some(Shading::Compute))),
-        ("coarser", base.with(|it| it.max_iterations = 3)),
+        ("coarser", coarsening(base).with(|it| it.max_iterations = 3)),
         ("sheets", base.with(|it| it.sheets = 2)),
     ]
 }
@@ -76,6 +76,7 @@ fn a_view_may_be_a_part_of_the_images() {
                 let config = config.with(|it| it.in_place = in_place);
                 let mut rig = Rig::lit(&gpu, &config, 1);
                 let alone = rig.draw(&shot(depth_extent));
+                assert!(way != "coarser" || !alone.coarser.is_empty(), "no coarser level");
                 let part = Shot { margin: [13, 30, 7, 21], ..shot(depth_extent) };
                 let found = rig.draw(&part);
                 let name = format!("part-{way}-{in_place}-{}", depth_extent.0);
@@ -103,6 +104,7 @@ fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
     for (way, config) in ways() {
         let shot = shot(SIZE);
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
+        assert!(way != "coarser" || !expected.coarser.is_empty(), "no coarser level");
         let mut rig = Rig::lit(&gpu, &config.with(|it| it.extent = extent(150, 101)), 1);
         // A larger frame's remains in the images are not visible.
         let whole =
