@@ -1,5 +1,5 @@
-//! Whatever bits a host's streams hold, a frame ends, is finite and stays in its own memory: NaN,
-//! infinities, the largest and smallest numbers, random bits. A driver that ends endless loops by
+//! Whatever bits a host's streams hold, a frame ends and is finite: NaN, infinities, the largest and
+//! smallest numbers, random bits. A driver that ends endless loops by
 //! itself (lavapipe before Mesa 25) hides some faults, so these tests also run on a newer one.
 
 use ash::vk;
@@ -37,8 +37,8 @@ const BITS: [Option<u32>; 13] = [
     None,
 ];
 
-/// Changes two of three entries: in some all words, in others one word, so that each kind of bits
-/// comes to each place.
+/// Changes two of three entries: in some all words, in others one word. Each kind of bits comes to
+/// each place if there are 39 entries for each word, and 39 for all words.
 pub fn spoil(words: &mut [u32], entry: usize, random: &mut Random) {
     for (i, entry) in words.chunks_mut(entry).enumerate().filter(|(i, _)| i % 3 > 0) {
         let all = entry.len();
@@ -49,6 +49,24 @@ pub fn spoil(words: &mut [u32], entry: usize, random: &mut Random) {
             }
         }
     }
+}
+
+/// Changes two of three entries by the next pairs of a kind of bits and a place (a word, or all
+/// words), from this pair on. Returns the pair after the last.
+fn spoil_from(first: usize, words: &mut [u32], entry: usize, random: &mut Random) -> usize {
+    let spoilt = words.chunks_mut(entry).enumerate().filter(|(i, _)| i % 3 > 0);
+    let mut next = first;
+    for (_, entry) in spoilt {
+        let all = entry.len();
+        let (kind, one) = (next % BITS.len(), next / BITS.len() % (all + 1));
+        for (k, word) in entry.iter_mut().enumerate() {
+            if one == all || one == k {
+                *word = BITS[(kind + k) % BITS.len()].unwrap_or_else(|| random.bits() as u32);
+            }
+        }
+        next += 1;
+    }
+    next
 }
 
 /// Name and words of a stream, and the number of words per entry.
@@ -70,7 +88,8 @@ fn streams(case: &Foamy) -> Vec<Words> {
     let packets = |count: u32| -> Vec<[u32; 8]> {
         let wide = 1e3_f32.to_bits();
         let low = (-1e3_f32).to_bits();
-        (0..count / 16).map(|i| [16 * i, 16, low, low, low, wide, wide, wide]).collect()
+        // They are small, so that they are many.
+        (0..count / 2).map(|i| [2 * i, 2, low, low, low, wide, wide, wide]).collect()
     };
     let blob = |p: &[f32; 3], i: usize| Bubble {
         ball: [p[0], p[1], p[2], 0.3],
@@ -197,25 +216,36 @@ fn hostile_bits_in_any_stream_of_a_frame() {
         let mut rig = Rig::lit(&gpu, &config, 1);
         let all = streams(&case);
         let mut random = Random(5);
-        let mut spoiled = all.clone();
-        for words in &mut spoiled {
-            match words.0.ends_with("count") {
-                true => words.1.fill(u32::MAX),
-                false => spoil(&mut words.1, words.2, &mut random),
+        // The next pair of bits and place of each stream. Counts are only too large.
+        let mut next = vec![0; all.len()];
+        loop {
+            let (mut spoiled, mut due) = (all.clone(), Vec::new());
+            for (i, words) in spoiled.iter_mut().enumerate() {
+                let count = words.0.ends_with("count");
+                if next[i] < if count { 1 } else { BITS.len() * (words.2 + 1) } {
+                    due.push(i);
+                }
+                if count {
+                    words.1.fill(u32::MAX);
+                    next[i] = 1;
+                } else {
+                    next[i] = spoil_from(next[i], &mut words.1, words.2, &mut random);
+                }
             }
-        }
-        for i in 0..=all.len() {
-            let mut these = all.clone();
-            if i < all.len() {
-                these[i] = spoiled[i].clone();
-            } else {
-                these.clone_from(&spoiled);
+            if due.is_empty() {
+                break;
             }
-            let what = all.get(i).map_or("all", |words| words.0);
-            eprintln!("{name}: {what}");
-            let picture = draw(&mut rig, &case, &these);
-            let bad = picture.iter().flatten().filter(|v| !v.is_finite()).count();
-            assert_eq!(bad, 0, "{name}: values that are not finite, by {what}");
+            for one in due.into_iter().map(Some).chain([None]) {
+                let mut these = one.map_or(spoiled.clone(), |_| all.clone());
+                if let Some(i) = one {
+                    these[i] = spoiled[i].clone();
+                }
+                let what = one.map_or("all", |i| all[i].0);
+                eprintln!("{name}: {what}");
+                let picture = draw(&mut rig, &case, &these);
+                let bad = picture.iter().flatten().filter(|v| !v.is_finite()).count();
+                assert_eq!(bad, 0, "{name}: values that are not finite, by {what}");
+            }
         }
     }
 }
