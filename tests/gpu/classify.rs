@@ -9,6 +9,7 @@ use whitewater::{
 
 use crate::hostile::spoil;
 use crate::reference::classify::{self as twin, Entry, NO_ID, Particle, Phase, Phases};
+use crate::spied::{only_records, spied};
 use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE, Stub};
 use crate::support::limits::{Claims, claim};
@@ -230,6 +231,24 @@ impl Sea {
         let order = self.random.order(self.particles.len());
         self.particles = order.iter().map(|i| self.particles[*i]).collect();
         &self.particles
+    }
+}
+
+/// A step neither waits nor submits, and makes no memory and no pipelines.
+#[test]
+fn a_step_only_records() {
+    let gpu = spied();
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(700).with(|it| it.max_stride = 20));
+    let (settings, mut sea) = (settings(), Sea::new(700));
+    let cloud = Cloud::new(&body.stub, sea.step());
+    let step = cloud.step(&settings, 0.02);
+    for _ in 0..3 {
+        let cmd = body.stub.begin(0);
+        let state = body.state.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording, the slot was waited for, and all handles outlive the step.
+        only_records(&gpu, "step", || unsafe { state.record_step(cmd, &step) });
+        body.stub.end(0);
+        body.stub.wait(0);
     }
 }
 

@@ -9,6 +9,7 @@ use whitewater::{Count, Error, GeneratorStep, Slot, Stream, WhitewaterParticles}
 use whitewater::{Generator, GeneratorConfig, GeneratorSettings, PotentialRange, WhitewaterConfig};
 
 use crate::reference::generate::{self as twin, Fluid, Particle};
+use crate::spied::{only_records, spied};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE, Stub};
@@ -397,6 +398,23 @@ fn config() -> GeneratorConfig {
     GeneratorConfig::new(2000, 4000).with(|it| it.max_stride = 28)
 }
 
+/// A step neither waits nor submits, and makes no memory and no pipelines.
+#[test]
+fn a_step_only_records() {
+    let gpu = spied();
+    let (mut making, fluid, settings) = (Making::new(&gpu, &config()), sea(0), settings());
+    let data = making.upload(&fluid);
+    for number in 0..3 {
+        let step = step_of(&data, &fluid, &settings, 0.02, number);
+        let recorded = making.record_by(&step, |generator, cmd, step| {
+            // SAFETY: cmd is recording, the slot was waited for, and all handles outlive the step.
+            only_records(&gpu, "step", || unsafe { generator.record_step(cmd, step) });
+            Ok(())
+        });
+        recorded.expect("a step");
+    }
+}
+
 /// Checks that two particles differ only by rounding and by the error of the water's velocity.
 fn assert_same(name: &str, found: &Particle, expected: &Particle, off: f64, dt: f64) {
     assert_eq!((found.kind, found.id), (expected.kind, expected.id), "{name}");
@@ -601,7 +619,7 @@ fn kinds_at_birth_are_those_of_the_next_step() {
             it.bounds = None;
         });
         let data = making.upload(&fluid);
-        // In this step particles move at most a hundredth of a spacing.
+        // Speeds are below 3√3, so in this step particles move at most 0.052 spacings.
         let step = step_of(&data, &fluid, &settings, 0.01 * SPACING, 0);
         let recorded = making.record_by(&step, |generator, cmd, step| {
             // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of

@@ -18,7 +18,7 @@ use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 use super::slow;
 
 pub use bubbles::{Foamed, Soaped};
-pub use cloud::{attenuation, twins};
+pub use cloud::{WhitewaterCloud, attenuation, twins};
 pub use drawn::{Drawn, DrawnWhitewater, Foaming, Sheets};
 use shot::AROUND;
 pub use shot::{Shot, is_around};
