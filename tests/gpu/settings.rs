@@ -1,6 +1,6 @@
 //! Each setting has an effect: a change of any one changes the picture of a configuration that uses
 //! it. Settings that only apply in one mode are changed in that mode; shore settings are tested in
-//! [`super::shore::settings`].
+//! [`super::shore::settings`]. Each test names the settings that it leaves to others.
 
 use std::f32::consts::PI;
 
@@ -9,8 +9,8 @@ use glam::{Mat4, Vec3};
 use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::{Bubble, Whitewater};
 use whitewater::water::{
-    Amplitude, Convolution, DebugView, Fresnel, Kernels, Medium, Rule, Shadows, SpraySettings,
-    SurfaceNoiseSettings,
+    Amplitude, Bed, Compositing, Convolution, DebugView, Fresnel, Kernels, Medium, Rule, Shadows,
+    SpraySettings, SurfaceNoiseSettings,
 };
 use whitewater::{LightVolume, Settings, Shadow};
 use whitewater::{Occlusion, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig};
@@ -59,6 +59,23 @@ fn none_show(
     }
 }
 
+/// Checks that the changes, or those of other tests, contain each field of a part of the settings.
+fn all_listed(part: &str, of: &impl std::fmt::Debug, changes: &[Change], elsewhere: &[&str]) {
+    let text = format!("{of:#?}");
+    let own = text.lines().filter_map(|line| line.strip_prefix("    ")?.split_once(": "));
+    let fields = own.map(|(name, _)| name).filter(|name| !name.starts_with(' '));
+    let named = |change: &str, field: &str| {
+        let rest =
+            change.strip_prefix(part).and_then(|it| it.strip_prefix('.')?.strip_prefix(field));
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', '.']))
+    };
+    let missing: Vec<_> = fields
+        .filter(|field| !elsewhere.contains(field))
+        .filter(|field| !changes.iter().any(|(change, _)| named(change, field)))
+        .collect();
+    assert!(missing.is_empty(), "{part}: nothing changes {missing:?}");
+}
+
 /// Water, foam and spray of all kinds before and behind each other, in the sun.
 fn layered() -> Foamy {
     let mut case = Foamy::new(SIZE, Lens::Standard, 20.0);
@@ -102,7 +119,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 67] = [
+    let changes: [Change; 70] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -122,6 +139,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("water.refraction", |s| s.water.refraction = 0.05),
         ("water.specular", |s| s.water.specular = 0.5),
         ("water.shininess", |s| s.water.shininess = 6.0),
+        ("water.compositing", |s| s.water.compositing = Compositing::Source),
         ("surface_foam.extinction", |s| s.surface_foam.extinction *= 2.0),
         ("surface_foam.front_extinction", |s| s.surface_foam.front_extinction *= 2.0),
         ("surface_foam.front_power", |s| s.surface_foam.front_power = 2.0),
@@ -141,6 +159,8 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("surface_foam.min_thickness", |s| s.surface_foam.min_thickness *= 2.0),
         ("surface_foam.normal_strength", |s| s.surface_foam.normal_strength = 0.7),
         ("surface_foam.shadow", |s| s.surface_foam.shadow *= 3.0),
+        ("surface_foam.lace", |s| s.surface_foam.lace = 1.0),
+        ("surface_foam.shape", |s| s.surface_foam.shape = 1.0),
         ("surface_foam.aeration", |s| s.surface_foam.aeration = 0.7),
         ("surface_foam.aerated_color", |s| {
             (s.surface_foam.aeration, s.surface_foam.aerated_color) = (0.5, [0.9; 3]);
@@ -185,32 +205,63 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
         }),
     ];
-    all_show("layered", &base, &changes, drawer(case, &mut rig));
+    // Other tests change the densities, the bed, ellipsoids and the foam's own noise, waves of a known speed the gravity.
+    all_listed(
+        "water",
+        &base.water,
+        &changes,
+        &["density_threshold", "density_full", "bed", "ellipsoids"],
+    );
+    all_listed("water.wavelets", &base.water.wavelets, &changes, &["gravity"]);
+    let others = ["noise", "noise_rate", "lace_size", "lace_shade", "few_neighbours"];
+    all_listed("surface_foam", &base.surface_foam, &changes, &others);
+    all_listed("spray", &base.spray, &changes, &["strand_ratio", "few_neighbours"]);
+    // Noise in the air needs water on the scene.
+    all_listed("noise", &base.noise, &changes, &["airborne"]);
+    all_listed("light", &base.light, &changes, &[]);
+    let mut draw = drawer(case, &mut rig);
+    all_show("layered", &base, &changes, &mut draw);
+    let lace: [Change; 2] = [
+        ("surface_foam.lace_size", |s| s.surface_foam.lace_size = 8.0),
+        ("surface_foam.lace_shade", |s| s.surface_foam.lace_shade = 1.0),
+    ];
+    let mut laced = base;
+    laced.surface_foam.lace = 0.5;
+    all_show("lace", &laced, &lace, draw);
 }
 
-/// The setting shows with ellipsoids, and not with spheres.
+/// These settings show with ellipsoids, and not with spheres.
 #[test]
-fn the_setting_of_the_sprays_shape_shows() {
+fn every_setting_of_ellipsoids_shows() {
     let gpu = Gpu::shared();
-    let strand: [Change; 1] = [("spray.strand_ratio", |s| s.spray.strand_ratio = 4.0)];
+    let changes: [Change; 8] = [
+        ("spray.strand_ratio", |s| s.spray.strand_ratio = 4.0),
+        ("spray.few_neighbours", |s| s.spray.few_neighbours = [1.0, 40.0]),
+        ("surface_foam.few_neighbours", |s| s.surface_foam.few_neighbours = [1.0, 40.0]),
+        ("water.ellipsoids.reach", |s| s.water.ellipsoids.reach = 4.0),
+        ("water.ellipsoids.ratio", |s| s.water.ellipsoids.ratio = 1.5),
+        ("water.ellipsoids.fewest", |s| s.water.ellipsoids.fewest = 4.0),
+        ("water.ellipsoids.lone", |s| s.water.ellipsoids.lone = 0.5),
+        ("water.ellipsoids.centred", |s| s.water.ellipsoids.centred = 0.2),
+    ];
+    let ellipsoids = Settings::default().water.ellipsoids;
+    all_listed("water.ellipsoids", &ellipsoids, &changes, &[]);
     for kernels in [Kernels::Ellipsoids, Kernels::Spheres] {
         let config = config(SIZE).with(|it| {
             it.spray = true;
+            it.surface_foam = true;
             it.kernels = kernels;
         });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = layered();
         case.shot.light_volume = None;
+        // The particles are far apart.
+        case.shot.settings.water.ellipsoids.fewest = 0.5;
         let base = case.shot.settings.clone();
-        let draw = |settings: &Settings| {
-            case.shot.settings = settings.clone();
-            let streams = case.streams(&rig);
-            let particles = streams.particles().with(|it| it.surface_foam = None);
-            rig.draw_particles(&case.shot, &particles)
-        };
+        let draw = drawer(case, &mut rig);
         match kernels {
-            Kernels::Ellipsoids => all_show("ellipsoids", &base, &strand, draw),
-            _ => none_show("spheres", &base, &strand, draw),
+            Kernels::Ellipsoids => all_show("ellipsoids", &base, &changes, draw),
+            _ => none_show("spheres", &base, &changes, draw),
         }
     }
 }
@@ -254,6 +305,13 @@ fn every_setting_of_the_other_modes_shows() {
         ("surface_foam.noise_rate", |s| s.surface_foam.noise_rate = 50.0),
     ];
     all_show("other modes", &base, &changes, drawer(case, &mut rig));
+    // Some of this water touches the wall.
+    let mut case = layered();
+    case.shot.light_volume = None;
+    case.shot.scene_depth(|_, _| Some(5.0));
+    let base = case.shot.settings.clone();
+    let bed: [Change; 1] = [("water.bed", |s| s.water.bed = Bed::Source)];
+    all_show("bed", &base, &bed, drawer(case, &mut rig));
     // The source's rule of the smoothing has its own width, so this setting has no effect.
     let ruled = plain.with(|it| it.rule = Rule::Source);
     let mut rig = Rig::lit(&gpu, &ruled, 1);
@@ -301,6 +359,7 @@ fn every_setting_of_the_shadow_filter_shows() {
         ("shadow.offset", |s| s.shadow.offset = 0.2),
         ("shadow.scale", |s| s.shadow.scale = 1.0),
     ];
+    all_listed("shadow", &base.shadow, &changes, &[]);
     all_show("shadow filter", &base, &changes, drawer(case, &mut rig));
 }
 
@@ -340,7 +399,7 @@ fn heap_drawer<'r>(rig: &'r mut Rig<'_>) -> (Settings, impl FnMut(&Settings) -> 
 #[test]
 fn every_setting_of_whitewater_particles_shows() {
     let gpu = Gpu::shared();
-    let changes: [Change; 18] = [
+    let changes: [Change; 26] = [
         ("whitewater.radius", |s| s.whitewater.radius *= 1.2),
         ("whitewater.submerged", |s| s.whitewater.submerged = FALLOFF),
         ("whitewater.half_intensity_thickness", |s| s.whitewater.half_intensity_thickness = 1.0),
@@ -359,7 +418,17 @@ fn every_setting_of_whitewater_particles_shows() {
         ("whitewater.shadow_color", |s| s.whitewater.shadow_color = [0.5; 3]),
         ("whitewater.albedo", |s| s.whitewater.albedo = [0.5; 3]),
         ("whitewater.mixing", |s| s.whitewater.mixing = ShadowMixing::Source),
+        ("whitewater.scale", |s| s.whitewater.scale = 2.0),
+        ("whitewater.foam_shape", |s| s.whitewater.foam_shape = [1.5, 1.0]),
+        ("whitewater.spray_shape", |s| s.whitewater.spray_shape = [2.25, 1.0]),
+        ("whitewater.bubble_shape", |s| s.whitewater.bubble_shape = [2.0, 2.0]),
+        ("whitewater.life", |s| s.whitewater.life = [1.0, 0.4]),
+        ("whitewater.sizes", |s| s.whitewater.sizes = 2),
+        ("whitewater.bubble_size", |s| s.whitewater.bubble_size = 1.0),
+        ("whitewater.blur", |s| s.whitewater.blur = 6.0),
     ];
+    let look = Settings::default().whitewater;
+    all_listed("whitewater", &look, &changes, &["sample_density", "min_samples"]);
     let falloff: [Change; 3] = [
         ("whitewater.submerged.most", |s| {
             s.whitewater.submerged = Submerged::Falloff { depth: 0.8, n: 2.0, m: 4.0 };
@@ -374,7 +443,7 @@ fn every_setting_of_whitewater_particles_shows() {
     // The number of samples depends on a sphere's size in pixels only in the reference, as
     // `WhitewaterSettings` documents.
     let points: [Change; 2] = [
-        ("whitewater.density", |s| s.whitewater.sample_density = 0.01),
+        ("whitewater.sample_density", |s| s.whitewater.sample_density = 0.01),
         ("whitewater.min_samples", |s| s.whitewater.min_samples = 300),
     ];
     for occlusion in [Occlusion::Fast, Occlusion::Reference] {
@@ -440,6 +509,7 @@ fn every_setting_of_bubble_foam_shows() {
         ("bubbles.fill_holes", |s| s.bubbles.fill_holes = false),
         ("bubbles.min_pixels", |s| s.bubbles.min_pixels = 8.0),
     ];
+    all_listed("bubbles", &base.bubbles, &changes, &["crossfade"]);
     all_show("bubbles", &base, &changes, |settings| {
         shot.settings = settings.clone();
         rig.draw(&shot)
@@ -470,5 +540,6 @@ fn every_setting_of_the_crossfade_shows() {
         ("bubbles.crossfade.far", |s| s.bubbles.crossfade.far = 6.0),
         ("bubbles.crossfade.size", |s| s.bubbles.crossfade.size = 1.5),
     ];
+    all_listed("bubbles.crossfade", &base.bubbles.crossfade, &changes, &[]);
     all_show("hand-over", &base, &changes, draw);
 }
