@@ -9,7 +9,7 @@ use crate::reference::whitewater::foam_bounds;
 use crate::reference::{EMPTY, Image};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, extent};
+use crate::support::rig::{Rig, coarsening, extent};
 use crate::support::scenes::{self, LENSES, Lens};
 
 /// The fluid around foam is the smoothed surface where it is near the spheres, also at coarser
@@ -17,11 +17,19 @@ use crate::support::scenes::{self, LENSES, Lens};
 #[test]
 fn the_fluid_round_foam_is_smooth() {
     let gpu = Gpu::shared();
-    for (lens, smoothing_level) in [(Lens::Standard, 1), (Lens::OffAxis, 0), (Lens::Reversed, 2)] {
+    for (lens, smoothing_level, near) in [
+        (Lens::Standard, 1, false),
+        (Lens::OffAxis, 0, false),
+        (Lens::Reversed, 2, false),
+        (Lens::Standard, 0, true),
+    ] {
         let config = whitewater_config(SIZE).with(|it| {
             it.smoothing_level = smoothing_level;
             it.max_particles = 20_000;
         });
+        // So few iterations that coarser levels show.
+        let few = coarsening(config).with(|it| it.max_iterations = 3);
+        let config = if near { few } else { config };
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut cloud = Whitewater::new(lens);
         let block = scenes::block(3, 0.2, [30, 20, 4], [-3.0, -2.0, 4.0]);
@@ -30,6 +38,15 @@ fn the_fluid_round_foam_is_smooth() {
         let fluid = channel(&drawn.whitewater.as_ref().expect("whitewater particles").occluders, 2);
         let surface = smoothed(&drawn, &cloud.shot, config.max_iterations);
         let falloff = cloud.shot.falloff();
+        let coarser = |x: usize, y: usize| {
+            let (level, _) = surface
+                .levels
+                .shown(surface.levels.nearness_at((x, y), f64::from(drawn.depth.at(x, y))));
+            level > 0
+        };
+        let shown = (0..fluid.height).flat_map(|y| (0..fluid.width).map(move |x| (x, y)));
+        let shown = shown.filter(|&(x, y)| coarser(x, y)).count();
+        assert!(!near || shown > 500, "{shown} pixels of coarser levels");
         let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
             let sphere = drawn.depth.at(x, y);
             if f64::from(sphere) >= EMPTY {

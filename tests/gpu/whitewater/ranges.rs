@@ -1,7 +1,7 @@
 //! Settings at the ends of their ranges.
 
 use glam::DVec3;
-use whitewater::{OcclusionReach, Submerged, WhitewaterSettings};
+use whitewater::{OcclusionReach, ShadowMixing, Submerged, WhitewaterSettings};
 
 use super::{HALF, SIZE, Whitewater, by, channel, ways, whitewater_config};
 use crate::reference::Image;
@@ -122,6 +122,9 @@ fn occluders_without_reach_hide_nothing() {
     assert!(f64::from(most) < HALF, "{most}");
 }
 
+/// The end of ranges up to ∞.
+const MOST: f32 = 1.0e12;
+
 /// Each setting at both ends of its range, then all settings at random ends.
 #[test]
 fn no_setting_in_its_range_makes_nan() {
@@ -129,17 +132,29 @@ fn no_setting_in_its_range_makes_nan() {
     fn pick<T>(most: bool, least: T, greatest: T) -> T {
         if most { greatest } else { least }
     }
-    let turns: [(&str, Turn); 23] = [
-        ("radius", |look, most| look.radius = pick(most, 1.0e-9, 1.0e6)),
+    // A value of the submerged particles' falloff, which keeps the other two.
+    fn falloff(
+        look: &mut WhitewaterSettings,
+        change: fn(&mut f32, &mut f32, &mut f32, bool),
+        most: bool,
+    ) {
+        let (mut depth, mut n, mut m) = match look.submerged {
+            Submerged::Falloff { depth, n, m } => (depth, n, m),
+            Submerged::Water => (0.5, 2.0, 4.0),
+        };
+        change(&mut depth, &mut n, &mut m, most);
+        look.submerged = Submerged::Falloff { depth, n, m };
+    }
+    let turns: [(&str, Turn); 29] = [
+        ("radius", |look, most| look.radius = pick(most, 1.0e-9, MOST)),
         ("submerged.most", |look, most| {
-            look.submerged =
-                Submerged::Falloff { depth: pick(most, 1.0e-9, 1.0e9), n: 2.0, m: 4.0 };
+            falloff(look, |depth, _, _, most| *depth = pick(most, 1.0e-9, MOST), most);
         }),
         ("submerged.n", |look, most| {
-            look.submerged = Submerged::Falloff { depth: 0.5, n: pick(most, 0.1, 16.0), m: 4.0 };
+            falloff(look, |_, n, _, most| *n = pick(most, 0.1, 16.0), most)
         }),
         ("submerged.m", |look, most| {
-            look.submerged = Submerged::Falloff { depth: 0.5, n: 2.0, m: pick(most, 0.1, 16.0) };
+            falloff(look, |_, _, m, most| *m = pick(most, 0.1, 16.0), most)
         }),
         ("half", |look, most| look.half_intensity_thickness = pick(most, 1.0e-6, 1.0e6)),
         ("exponent", |look, most| look.exponent = pick(most, 0.1, 16.0)),
@@ -150,8 +165,15 @@ fn no_setting_in_its_range_makes_nan() {
         ("samples", |look, most| {
             [look.min_samples, look.max_samples] = pick(most, [1, 1], [512, 512])
         }),
-        ("reach", |look, most| look.reach = OcclusionReach::Radii(pick(most, 1.0e-9, 1.0e9))),
-        ("metres", |look, most| look.reach = OcclusionReach::Metres(pick(most, 1.0e-9, 1.0e9))),
+        ("reach", |look, most| {
+            let value = pick(most, 1.0e-9, MOST);
+            look.reach = match look.reach {
+                OcclusionReach::Radii(_) => OcclusionReach::Radii(value),
+                OcclusionReach::Metres(_) => OcclusionReach::Metres(value),
+            };
+        }),
+        ("fluid_opacity", |look, most| look.fluid_opacity = pick(most, 0.0, 1.0)),
+        ("scene_opacity", |look, most| look.scene_opacity = pick(most, 0.0, 1.0)),
         ("foam_shape", |look, most| look.foam_shape = pick(most, [0.1; 2], [16.0; 2])),
         ("spray_shape", |look, most| look.spray_shape = pick(most, [0.1, 16.0], [16.0, 0.1])),
         ("bubble_shape", |look, most| look.bubble_shape = pick(most, [0.1; 2], [16.0; 2])),
@@ -162,6 +184,16 @@ fn no_setting_in_its_range_makes_nan() {
         ("shadow.scale", |look, most| look.shadow_scale = pick(most, 0.0, 16.0)),
         ("shadow.exponent", |look, most| look.shadow_exponent = pick(most, 0.1, 16.0)),
         ("shadow.offset", |look, most| look.shadow_offset = pick(most, -1.0, 1.0)),
+        ("shadow.color", |look, most| look.shadow_color = pick(most, [0.0; 3], [1.0; 3])),
+        ("albedo", |look, most| look.albedo = pick(most, [0.0; 3], [1.0; 3])),
+        ("scale", |look, most| look.scale = pick(most, 0.0, 64.0)),
+        ("mixing", |look, most| {
+            look.mixing = pick(most, ShadowMixing::Scaled, ShadowMixing::Source)
+        }),
+        ("metres", |look, most| {
+            let (OcclusionReach::Radii(value) | OcclusionReach::Metres(value)) = look.reach;
+            look.reach = pick(most, OcclusionReach::Radii(value), OcclusionReach::Metres(value));
+        }),
     ];
     let gpu = Gpu::shared();
     let mut random = Random(17);
