@@ -101,8 +101,9 @@ fn a_shifted_image_is_not_the_twins() {
     let view = shot.view(size);
     let water = spheres(&shot);
     let depth = tolerance::depth(&water, &view);
-    let thickness = tolerance::thickness(&shot.splats(&water, 0, tolerance::Sum::Float));
+    let thickness = tolerance::thickness(&shot.splats(&water, 0, tolerance::Sum::Fixed));
     compare::between("planted-depth", &drawn.depth, &depth);
+    compare::between("planted-thickness", &drawn.thickness, &thickness);
     for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
         let (d, t) = (shifted(&drawn.depth, dx, dy), shifted(&drawn.thickness, dx, dy));
         assert!(fails(|| compare::between("planted-depth", &d, &depth)));
