@@ -22,7 +22,8 @@ pub struct Between {
 /// Length of the largest |slope| of the image's rays in x and y, to which a slope's rounding is
 /// proportional.
 pub fn reach(view: &View) -> f64 {
-    let corners = [(0, 0), (view.width - 1, 0), (0, view.height - 1)];
+    let (right, last) = (view.width - 1, view.height - 1);
+    let corners = [(0, 0), (right, 0), (0, last), (right, last)];
     let all = corners.map(|(x, y)| view.ray(x, y).truncate().length());
     all.into_iter().fold(0.0, f64::max)
 }

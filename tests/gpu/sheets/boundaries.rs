@@ -40,7 +40,7 @@ impl Texels {
 
 /// Relative rounding error of a boundary. An end of an air gap has an error of 4u. Its middle and
 /// the mean's products and sums add 9u, the sum of the weights and the quotient 6u, the limits 6u.
-const RELATIVE: f64 = 33.0 * U;
+const RELATIVE: f64 = 25.0 * U;
 
 /// What is known of a shot's boundaries, given the depth that was read back.
 fn judged(shot: &Shot, depth: &Image<f32>, level: u32) -> Image<KnownTexel> {

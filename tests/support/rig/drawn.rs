@@ -191,7 +191,8 @@ impl Rig<'_> {
                 drawn.work.front += words[0] + words[5];
             }
         }
-        let count = 9 * self.config.max_particles;
+        // Ten words a particle.
+        let count = 10 * self.config.max_particles;
         drawn.shapes = own.shapes.map(|buffer| self.words_of(buffer, count));
         if let Some(tiles) = own.tiles {
             let back = self.stub.sized(16 * 259, vk::BufferUsageFlags::TRANSFER_DST);
