@@ -249,7 +249,7 @@ pub fn check_told(
     let (sky_slope, sky_error) = (sky.slope(), sky.error(bits));
     let filter = Filter { bits, sky_slope, sky_error };
     let surfaces = Surfaces::new(&inputs, &settings, &view);
-    let (mut water, mut skipped, mut decisions) = (0, 0, 0);
+    let (mut water, mut skipped) = (0, 0);
     let mut cases = Cases::default();
     let mut bounds = Image::new(width, height, [0.0; 4]);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
@@ -276,7 +276,6 @@ pub fn check_told(
         let touching = twin::Under::of(&settings, &found, &view).wet;
         let under = twin::Under::met(&inputs, &settings, &found, &view, pixel).wet;
         cases.missed += usize::from(under < 0.5 * touching);
-        decisions += rig.config.mirror_steps as usize;
         // If the look-up's uncertainty reaches a neighbouring texel, the GPU may read another texel
         // of the scene.
         let q = look_up(&inputs, &settings, &found, &view, pixel);
@@ -286,7 +285,6 @@ pub fn check_told(
         let texel = size.width as f64 / shot.depth_extent.width.min(size.width) as f64;
         let moved = moved + 2.0 * texel / f64::from(1 << bits);
         let (_, asked) = cut_look_up(&inputs, z, pixel, q);
-        decisions += asked.len();
         let unsure = |q: &DVec2| {
             let either = sides.map(|(dx, dy)| hidden(&inputs, z, *q + DVec2::new(dx, dy) * moved));
             either.iter().any(|h| *h != either[0])
@@ -300,7 +298,8 @@ pub fn check_told(
         *bounds.at_mut(x, y) = [color[0].e, color[1].e, color[2].e, 0.0];
     }
     let census = compare::close_color(name, &drawn.output, &expected, |x, y| bounds.at(x, y));
-    assert!(water > 300 && skipped * 50 <= decisions, "{name}: {skipped} of {water} undecided");
+    // Marched rays and look-ups near edges of the scene are undecided in few pixels.
+    assert!(water > 300 && skipped * 25 <= water, "{name}: {skipped} of {water} undecided");
     if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
         eprintln!("{name}: {skipped} of {water} undecided, {cases:?}, {census}");
     }
@@ -376,9 +375,22 @@ fn every_rule_of_the_surface() {
             all += check(&name, &mut rig, &shot, Sky::Even);
         }
     }
-    let Cases { whole, part_rim, rim, steep_rim, beside, alone, drop, part_drop, borrowed, .. } =
-        all;
-    let least = [whole, part_rim, rim, steep_rim, beside, alone, drop, part_drop, borrowed];
+    let Cases {
+        whole,
+        border,
+        part_rim,
+        rim,
+        steep_rim,
+        beside,
+        alone,
+        drop,
+        part_drop,
+        borrowed,
+        // Rules of the rays, which other tests use.
+        mirrored: _,
+        missed: _,
+    } = all;
+    let least = [whole, border, part_rim, rim, steep_rim, beside, alone, drop, part_drop, borrowed];
     assert!(least.iter().all(|pixels| *pixels >= 20), "{all:?}");
 }
 
@@ -477,7 +489,8 @@ fn liquids_look_like_themselves() {
     assert!(r > 3.0 * g && g > 10.0 * b && (r - 0.497).abs() < 1.0e-6, "{r} {g} {b}");
 }
 
-/// A change of any setting by a hundredth is detected as another picture.
+/// A change of one of these settings by a hundredth, or of the sun's direction by a degree, is
+/// detected as another picture.
 #[test]
 fn a_hundredth_is_seen() {
     let gpu = Gpu::shared();
@@ -493,8 +506,11 @@ fn a_hundredth_is_seen() {
             *scattering = scattering.map(|k| k * scatters);
         }
     }
+    fn turned(direction: DVec3) -> DVec3 {
+        glam::DQuat::from_rotation_y(1.0_f64.to_radians()) * direction
+    }
     type Fault = fn(&mut twin::Settings);
-    let faults: [(&str, &Shot, Fault); 7] = [
+    let faults: [(&str, &Shot, Fault); 10] = [
         ("absorption", &flat, |s| medium(s, 1.01, 1.0)),
         ("scattering", &flat, |s| medium(s, 1.0, 1.01)),
         ("fresnel", &flat, |s| s.fresnel = twin::Fresnel::Schlick { f0: 0.0202 }),
@@ -502,6 +518,13 @@ fn a_hundredth_is_seen() {
         ("shininess", &flat, |s| s.shininess *= 1.01),
         ("radius", &flat, |s| s.radius *= 1.01),
         ("refraction", &shot, |s| s.refraction *= 1.01),
+        ("sun colour", &flat, |s| s.sun_color = s.sun_color.map(|k| k * 1.01)),
+        ("sun direction", &flat, |s| s.sun_direction = turned(s.sun_direction)),
+        ("ambient", &flat, |s| {
+            if let twin::Medium::Physical { ambient, .. } = &mut s.medium {
+                *ambient = ambient.map(|k| k * 1.01);
+            }
+        }),
     ];
     for (name, shot, fault) in faults {
         check("planted-look", &mut rig, shot, Sky::Even);
@@ -725,39 +748,48 @@ fn water_does_not_touch_what_a_ray_meets_far_behind_it() {
 
 /// A body of water before other water refracts as it does alone. The clear pane of water far behind
 /// changes the picture only by its own reflection, at most twice a fiftieth of the radiance, and by
-/// the offset from its own thickness.
+/// the offset from its own thickness. Over the scene's stripes that is less than half of what the
+/// refraction itself changes.
 #[test]
 fn water_before_water_bends_as_it_does_alone() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = config(size).with(|it| {
-        it.coarsening = 0;
-        it.sheets = 2;
-        it.exit = Exit::TwoInterfaces;
-    });
-    let mut rig = Rig::new(&gpu, &config);
-    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let clear = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
-    let mut drawn = |pane: bool| {
+    let drawn = |pane: bool, exit: Exit| {
+        let config = config(size).with(|it| {
+            it.coarsening = 0;
+            it.sheets = 2;
+            it.exit = exit;
+        });
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         let mut points = scenes::block(9, 0.25, [10, 7, 4], [-1.2, -0.9, 4.0]);
         if pane {
             points.extend(scenes::block(3, 0.3, [50, 36, 2], [-7.5, -5.4, 9.0]));
         }
         let mut shot = Shot::new(size, Lens::Standard, 0.2, &points);
         shot.scene_depth(|x, _| Some(14.0 + 0.02 * f64::from(x)));
+        for (i, color) in shot.color.iter_mut().enumerate() {
+            color[1] = 0.5 + 0.5 * (0.4 * (i % 97) as f32).sin();
+        }
         shot.settings.water.medium = clear;
         shot.settings.water.specular = 0.0;
         let drawn = rig.draw(&shot);
         (drawn.output, drawn.depth)
     };
-    let ((alone, depth), (before, _)) = (drawn(false), drawn(true));
-    let (mut sum, mut count, mut most) = (0.0, 0, 0.0_f32);
-    for (i, _) in depth.data.iter().enumerate().filter(|(_, z)| **z < 6.0) {
-        let off = (alone.data[i][1] - before.data[i][1]).abs();
-        (sum, count, most) = (sum + off, count + 1, most.max(off));
-    }
-    let mean = sum / count as f32;
-    assert!(count > 300 && mean < 0.04, "{count} pixels, {mean} in the mean, {most} at most");
+    let (alone, depth) = drawn(false, Exit::TwoInterfaces);
+    let apart = |(other, _): (Image<[f32; 4]>, _)| {
+        let front = (0..depth.data.len()).filter(|i| depth.data[*i] < 6.0);
+        let off = front.map(|i| f64::from((alone.data[i][1] - other.data[i][1]).abs()));
+        let all: Vec<_> = off.collect();
+        assert!(all.len() > 300, "{} pixels", all.len());
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let before = apart(drawn(true, Exit::TwoInterfaces));
+    let straight = apart(drawn(false, Exit::Straight));
+    let both = apart(drawn(true, Exit::Straight));
+    assert!(2.0 * before < straight, "{before}, without refraction {straight}");
+    assert!(2.0 * both > straight, "{both}, although the water before water does not bend");
 }
 
 /// White furnace: clear water over a white bed in an even environment is invisible, because
