@@ -3,10 +3,12 @@
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
+use whitewater::headless::Whitewater;
+use whitewater::shore::ShoreConfig;
 use whitewater::water::{Gate, Kernels, Shading, Smoothing};
 use whitewater::{
-    Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
-    SurfaceFoamStateConfig, WhitewaterConfig, WhitewaterSplat,
+    Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Shore, Shoreline, Slot,
+    SurfaceFoamState, SurfaceFoamStateConfig, WhitewaterConfig, WhitewaterSplat,
 };
 
 use crate::support::device::Gpu;
@@ -280,7 +282,7 @@ fn functions_that_are_not_loaded_are_named() {
     }
 }
 
-/// The documentation promises at most 64 bytes of device memory per particle besides the input.
+/// The documentation promises 32 bytes of device memory per particle besides the input.
 #[test]
 fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
@@ -302,8 +304,13 @@ fn ten_million_particles_have_room() {
     let memory = renderer.memory();
     // SAFETY: nothing was recorded.
     unsafe { renderer.destroy() };
-    assert!(memory.buffers > 32 * u64::from(count), "{memory:?} holds no spheres");
-    assert!(memory.buffers < 64 * u64::from(count), "{memory:?}");
+    let documented = 32 * u64::from(count);
+    assert!(memory.buffers > documented, "{memory:?} holds no spheres");
+    // The last chunk is whole. A chunk is what one binding or one dispatch holds, with entries of
+    // 64 bytes. Other buffers take less than a thousandth.
+    let chunk = (gpu.limits().max_storage_buffer_range / 64).min(64 * 65_535);
+    let most = documented + 32 * u64::from(chunk) + documented / 1000;
+    assert!(memory.buffers < most, "{memory:?}");
 }
 
 /// Bytes per pixel and per particle as in the memory table of the crate's documentation. A driver
@@ -552,6 +559,70 @@ fn timings_name_every_pass() {
     let (light, caustics, lit) = (at("light"), at("caustics"), at("lit"));
     assert!(light.is_some() && light < caustics && caustics < lit, "{names:?}");
     assert!(lit < at("composite"), "{names:?}");
+}
+
+/// The passes of parts that [`timings_name_every_pass`] leaves out have timer scopes, too, in the
+/// order of their commands.
+#[test]
+fn timings_name_the_passes_of_other_parts() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.variants = 2;
+        it.bubbles = 16;
+        it.map_size = 32;
+    });
+    let plain = config(size);
+    let sun = plain.with(|it| it.light_map_size = Some(16));
+    let foam = |config: Config| config.with(|it| it.whitewater = Some(WhitewaterConfig::new(1024)));
+    let cases: [(Config, &[&str]); 6] = [
+        (foam(sun), &["whitewater_light", "splat", "radiance", "blur"]),
+        (sun.with(|it| it.bubbles = Some(bubbles)), &["blobs", "cast", "peel", "soap"]),
+        (
+            foam(plain.with(|it| it.bubbles = Some(bubbles.with(|it| it.crossfade = true)))),
+            &["near", "blobs", "peel", "soap", "splat", "radiance", "blur"],
+        ),
+        (
+            plain.with(|it| it.shore = Some(ShoreConfig::default())),
+            &["shore-tiles", "shoreline", "contact"],
+        ),
+        (plain.with(|it| it.shadow = convolved(4, 8)), &["convolution"]),
+        (plain.with(|it| it.kernels = Kernels::Ellipsoids), &["shape"]),
+    ];
+    for (config, wanted) in cases {
+        let mut rig = Rig::new(&gpu, &config);
+        let mut shot = water(size, Lens::Standard);
+        let _shade = sunny(&rig, &mut shot);
+        shot.shore = config.shore.map(|_| Shore::new(0.0).with_shoreline(Shoreline::Screen));
+        let cloud = rig.particles(&shot);
+        let points = rig.whitewater(&Whitewater {
+            positions: &shot.positions,
+            kinds: None,
+            radii: None,
+            ages: None,
+            ids: None,
+        });
+        let whitewater = config.whitewater.map(|_| points.particles());
+        rig.draw_whitewater(&shot, &cloud.particles(), whitewater);
+        let names: Vec<_> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();
+        // The passes of water and of the sun's light are those of the test above.
+        let others = [
+            "cull",
+            "front",
+            "depth",
+            "thickness",
+            "reduce",
+            "tiles",
+            "smooth",
+            "scene",
+            "light",
+            "caustics",
+            "lit",
+            "composite",
+        ];
+        let own: Vec<_> = names.iter().copied().filter(|name| !others.contains(name)).collect();
+        assert_eq!(own, wanted, "of {names:?}");
+    }
 }
 
 /// If a Vulkan 1.2 host does not plan to enable a needed feature, the check names it before the
