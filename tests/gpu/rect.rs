@@ -31,6 +31,11 @@ fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-surface"), &found.surface, &expected.surface);
     compare::same(&format!("{name}-thickness"), &found.thickness, &expected.thickness);
     assert!(found.plan.data == expected.plan.data, "{name}: other plans");
+    // Texels that no tile needs hold remains of other frames.
+    let sizes = |drawn: &Drawn| -> Vec<_> {
+        drawn.coarser.iter().map(|(surface, _)| (surface.width, surface.height)).collect()
+    };
+    assert_eq!(sizes(found), sizes(expected), "{name}: coarser levels");
     if let (Some(found), Some(expected)) = (&found.sheets, &expected.sheets) {
         same_sheets(name, found, expected);
     }

@@ -580,7 +580,7 @@ fn timings_name_the_passes_of_other_parts() {
         (sun.with(|it| it.bubbles = Some(bubbles)), &["blobs", "cast", "peel", "soap"]),
         (
             foam(plain.with(|it| it.bubbles = Some(bubbles.with(|it| it.crossfade = true)))),
-            &["near", "blobs", "peel", "soap", "splat", "radiance", "blur"],
+            &["near", "blobs", "splat", "peel", "radiance", "blur", "soap"],
         ),
         (
             plain.with(|it| it.shore = Some(ShoreConfig::default())),
@@ -593,6 +593,8 @@ fn timings_name_the_passes_of_other_parts() {
         let mut rig = Rig::new(&gpu, &config);
         let mut shot = water(size, Lens::Standard);
         let _shade = sunny(&rig, &mut shot);
+        // Contact foam on the particles' water is off by default.
+        shot.settings.shore.contact.particle_opacity = 1.0;
         shot.shore = config.shore.map(|_| Shore::new(0.0).with_shoreline(Shoreline::Screen));
         let cloud = rig.particles(&shot);
         let points = rig.whitewater(&Whitewater {
@@ -612,8 +614,10 @@ fn timings_name_the_passes_of_other_parts() {
             "depth",
             "thickness",
             "reduce",
+            "level",
             "tiles",
             "smooth",
+            "split",
             "scene",
             "light",
             "caustics",
