@@ -205,7 +205,8 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
         }),
     ];
-    // Other tests change the densities, the bed, ellipsoids and the foam's own noise, waves of a known speed the gravity.
+    // Other tests here change the densities, the bed, ellipsoids and the foam's own noise; gravity
+    // shows in waves that run.
     all_listed(
         "water",
         &base.water,
