@@ -141,7 +141,10 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     // The number of particles is limited to what fits before it is rounded up, so the rounding cannot overflow.
     let wanted = config.max_particles.clamp(1, fits.max(1)).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
-    (size, config.max_particles.max(1).div_ceil(size))
+    // Chunks of the same size, so that the last one is no nearly empty one.
+    let most = config.max_particles.max(1);
+    let even = most.div_ceil(most.div_ceil(size)).next_multiple_of(unit);
+    (even, most.div_ceil(even))
 }
 
 /// Bytes of a list entry: the sphere, and the shape of an ellipsoid.
@@ -626,8 +629,8 @@ impl Window {
 mod tests {
     use super::*;
 
-    /// Each chunk has room for a multiple of `chunk_unit` particles, and all chunks together for all particles. No
-    /// chunk is superfluous.
+    /// Each chunk has room for a multiple of `chunk_unit` particles, and all chunks together for all particles,
+    /// with less than such a multiple unused per chunk. No chunk is superfluous.
     #[test]
     fn any_number_of_particles_has_its_chunks() {
         let range = 1 << 27;
@@ -650,6 +653,8 @@ mod tests {
                     u64::from(size) * (u64::from(count) - 1) < u64::from(max_particles),
                     "{name}"
                 );
+                let unused = u64::from(size) * u64::from(count) - u64::from(max_particles);
+                assert!(unused < u64::from(chunk_unit(&config)) * u64::from(count), "{name}");
                 assert!(size <= MOST_CHUNK && size * 16 <= range, "{name}");
             }
         }
