@@ -193,7 +193,7 @@ float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec
             float apart = push.pair.x * (radius_of(growth) + radius_of(other));
             balls[at] = vec4(place + apart * way_apart(own, company), radius_of(other));
             turns[at] = turns[index];
-            ids[at] = pcg(floatBitsToUint(own.drift.w) ^ (0x68616c66u + halved));
+            ids[at] = pcg(pcg(floatBitsToUint(own.drift.w)) ^ (0x68616c66u + halved));
             drifts[at] = vec4(speed, 0.0);
             spins[at] = vec4(spin, 0.0);
             growths[at] = other;
