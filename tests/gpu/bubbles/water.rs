@@ -145,7 +145,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
     for (shading, level) in [(Shading::Raster, 0), (Shading::Compute, 2)] {
         let base = small(level).with(|it| it.composite = Some(shading));
         let mut scene = Scene::of(&gpu, DVec3::new(0.2, 0.5, 0.1), 3, base);
-        for (lens, depth) in [(Lens::Standard, 1.6), (Lens::LeftHanded, 3.2)] {
+        // The water begins before all blobs, and then behind the first ones.
+        for (lens, depth) in [(Lens::Standard, 1.6), (Lens::LeftHanded, 5.0)] {
             let mut shot = scene.shot_in(lens, true, (RADIUS, &block(depth, 4)));
             shot.settings.water.medium = TURBID;
             shot.settings.bubbles =
@@ -191,10 +192,11 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
                 for x in 0..water.width {
                     let [foam, front] = [soap.depth.at(x, y), whole.depth.at(x, y)].map(f64::from);
                     if is_surface(foam) && is_surface(front) {
-                        (wet, dry) = if foam > front { (wet + 1, dry) } else { (wet, dry + 1) };
                         // At this distance, rounding or smoothing decides whether foam or surface
                         // is in front.
                         let unsure = (foam - front).abs() <= near;
+                        wet += u32::from(!unsure && foam > front);
+                        dry += u32::from(!unsure && foam < front);
                         let most = expected.at(x, y).into_iter().fold(1.0, f64::max);
                         *off.at_mut(x, y) = [if unsure { 1.0e3 } else { 64.0 * U * most }; 4];
                     } else {
@@ -203,7 +205,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
                 }
             }
             println!("{shading:?}, {lens:?}: {wet} pixels in water, {dry} before it");
-            assert!(wet.max(dry) > 800, "{shading:?}, {lens:?}: {wet} and {dry}");
+            let compared = if lens == Lens::Standard { wet } else { dry };
+            assert!(compared > 300, "{shading:?}, {lens:?}: {wet} and {dry}");
             compare::close_color("soap-water-composite", &whole.output, &expected, |x, y| {
                 off.at(x, y)
             });
