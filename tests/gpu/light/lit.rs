@@ -1,9 +1,9 @@
 //! The light that the maps transmit reaches the scene behind the water and the highlights on the
 //! water.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
-use whitewater::{Config, LightVolume, Shadow};
+use whitewater::{Camera, Config, LightVolume, Shadow};
 
 use crate::reference::Image;
 use crate::reference::light::{ShadowMap, lit};
@@ -15,7 +15,7 @@ use crate::support::tolerance::U;
 use crate::surface_foam::Foamy;
 
 use super::shade::{light_views, shadows};
-use super::{SIZE, casting, even, halves, maps, twin, water};
+use super::{SIZE, casting, even, halves, maps, pool, toward, twin, water};
 
 /// Particles at heights of 0.8 to 1.2 over a tilted ground that is at `height` in the middle.
 pub fn grounded(lens: Lens, height: f64) -> Foamy {
@@ -56,9 +56,36 @@ pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     (p, U * (8.0 * depth + 2.0 * depth * depth / view.near() + 24.0 * (p.length() + 2.0 * eye)))
 }
 
+/// A floor under a deep pool with waves, which focus light on it. The eye is below the water, so that
+/// the floor shows.
+fn focused(sun: [f32; 3], wave: f32) -> Foamy {
+    let mut case = pool(sun, wave, 0);
+    let shot = &mut case.shot;
+    let lower: Vec<_> = shot.positions.iter().map(|[x, y, z]| [*x, y - 0.4, *z]).collect();
+    shot.positions.extend(lower);
+    shot.light_volume = Some(LightVolume { center: [0.0, -0.3, 0.0], radius: 2.0 });
+    let (eye, forward) = (Vec3::new(0.9, -1.1, 0.0), Vec3::new(-1.0, -0.35, 0.0));
+    let view = Mat4::look_to_rh(eye, forward.normalize(), Vec3::Y);
+    shot.camera = Camera::of(view, scenes::projection(Lens::Standard, SIZE));
+    let twin = shot.view(SIZE);
+    let back = twin.view.inverse();
+    shot.scene_depth(|x, y| {
+        let along = back.transform_vector3(twin.ray(x as usize, y as usize));
+        let depth = (-1.5 - f64::from(eye.y)) / along.y;
+        (depth > 0.0 && depth < 60.0).then_some(depth)
+    });
+    water(case.shot)
+}
+
 /// Checks that pixels without water, foam and spray are the scene in the light of the maps, to half
-/// precision.
-pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Past<'_>) {
+/// precision. Returns the number of values that are lighter than the scene.
+pub fn check_lit(
+    name: &str,
+    case: &Foamy,
+    config: &Config,
+    drawn: &Drawn,
+    past: &Past<'_>,
+) -> usize {
     let (shot, light, maps) = (&case.shot, twin(&case.shot, config), maps(drawn));
     let scene = shot.scene_eye();
     let foam = drawn.foam.as_ref().map(|foam| foam.seen(shot));
@@ -108,6 +135,7 @@ pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past:
         outside > 500 && darker >= 10,
         "{name}: {outside} outside, {darker} darker, {lighter} lighter"
     );
+    lighter
 }
 
 /// Whether a value in half precision is the rounded scene colour.
@@ -164,6 +192,44 @@ fn the_lit_scene_is_what_the_maps_say() {
                 assert!(near, "{found:?}, not {scene:?}");
             }
         }
+    }
+}
+
+/// Waves focus light on a floor as the maps say, at most threefold, and less the farther the floor is
+/// behind them.
+#[test]
+fn focused_light_is_what_the_maps_say() {
+    let gpu = Gpu::shared();
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = casting(128).with(|it| it.composite = Some(shading));
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut all = 0;
+        for (sun, wave) in [([0.0, 1.0, 0.0], 0.2), (toward(0.3, 0.9, 0.1), 0.24)] {
+            let mut case = focused(sun, wave);
+            case.shot.settings.light.shade = [0.0, 0.875, 5.0];
+            let drawn = case.draw(&mut rig);
+            let name = format!("focused-{shading:?}-{wave}");
+            let lighter = check_lit(&name, &case, &config, &drawn, &|_, _, _| exact(1.0));
+            let (light, maps, scene) =
+                (twin(&case.shot, &config), maps(&drawn), case.shot.scene_eye());
+            let gathered = (0..scene.data.len()).filter(|i| {
+                let (x, y) = (i % scene.width, i / scene.width);
+                let depth = scene.data[*i];
+                if depth > 99.0 || drawn.depth.data[*i] < 1e9 {
+                    return false;
+                }
+                let at = light.place(seen(&case.shot, depth, (x, y)).0).0 - 0.5;
+                let around =
+                    |k: isize| maps.caustics.clamped(at.x as isize + k % 2, at.y as isize + k / 2);
+                (0..4).all(|k| around(k) > 3.0)
+            });
+            let gathered = gathered.count();
+            let most = maps.caustics.data.iter().fold(0.0_f32, |a, c| a.max(*c));
+            println!("{name}: {lighter} values are lighter, {gathered} pixels at the most, {most}");
+            assert!(lighter > 200, "{name}: {lighter}");
+            all += gathered;
+        }
+        assert!(all > 20, "{shading:?}: the light of {all} pixels is limited");
     }
 }
 
