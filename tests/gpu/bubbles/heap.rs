@@ -1,7 +1,7 @@
 //! Compares a step of moving blobs with the CPU twin, and checks invariants of any heap.
 
 use ash::vk;
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3, Vec4};
 use whitewater::bubbles::{
     BlobSimulation, BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep,
     DistanceField, Solid,
@@ -15,6 +15,7 @@ use crate::support::device::Gpu;
 use crate::support::host::{HOST_WRITE, Stub};
 use crate::support::rig::stream;
 use crate::support::scenes::Random;
+use crate::support::tolerance::U;
 
 /// A blob simulation and the host that records its steps.
 pub struct Running {
@@ -64,7 +65,9 @@ impl Running {
             it.before = HOST_WRITE;
             it.after = HOST_WRITE;
         });
-        let largest = blobs.iter().map(|b| b.ball[3]).fold(0.01, f32::max);
+        // Blobs with other values are none.
+        let valid = |b: &&Bubble| b.ball.iter().all(|v| v.abs() < 1.0e18);
+        let largest = blobs.iter().filter(valid).map(|b| b.ball[3]).fold(0.01, f32::max);
         let drifts = stream(&speeds, 0, 12);
         // SAFETY: the commands are submitted at once, and the buffers live until their end.
         stub.run(|cmd| unsafe {
@@ -87,16 +90,23 @@ impl Running {
         self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
     }
 
-    pub fn read(&self, from: vk::Buffer) -> Vec<[f32; 4]> {
-        let bytes = 16 * self.count.max(1);
+    fn entries<T: bytemuck::AnyBitPattern + bytemuck::NoUninit>(&self, from: vk::Buffer) -> Vec<T> {
+        let bytes = size_of::<T>() * self.count.max(1);
         let back = self.stub.sized(bytes as u64, vk::BufferUsageFlags::TRANSFER_DST);
         self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, from, &back));
-        bytemuck::cast_slice(&back.bytes()[..16 * self.count]).to_vec()
+        bytemuck::cast_slice(&back.bytes()[..size_of::<T>() * self.count]).to_vec()
+    }
+
+    pub fn read(&self, from: vk::Buffer) -> Vec<[f32; 4]> {
+        self.entries(from)
     }
 
     pub fn blobs(&self) -> Vec<Blob> {
         let heap = self.heap.as_ref().expect("only drop takes it");
-        let balls = self.read(heap.blobs().spheres.buffer);
+        let set = heap.blobs();
+        let balls = self.read(set.spheres.buffer);
+        let turns = self.read(set.rotations.expect("rotations").buffer);
+        let ids: Vec<u32> = self.entries(set.ids.expect("ids").buffer);
         let (speeds, spins) = (self.read(heap.velocities().buffer), self.read(heap.spins().buffer));
         let vector = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         let one = |i: usize| Blob {
@@ -104,6 +114,8 @@ impl Running {
             radius: balls[i][3].into(),
             speed: vector(&speeds[i]),
             spin: vector(&spins[i]),
+            turn: DQuat::from_array(turns[i].map(f64::from)),
+            id: ids[i],
         };
         (0..self.count).map(one).collect()
     }
@@ -116,6 +128,38 @@ impl Drop for Running {
             unsafe { heap.destroy() };
         }
     }
+}
+
+/// Turns blobs at random. The quaternions have all lengths from 0.2 to 2.
+pub fn turn_at_random(blobs: &mut [Bubble], seed: u64) {
+    let mut random = Random(seed);
+    for blob in blobs {
+        let q = loop {
+            let q = Vec4::from([0; 4].map(|_| random.between(-1.0, 1.0)));
+            if q.length() > 0.2 {
+                break q;
+            }
+        };
+        blob.turn = q.to_array();
+    }
+}
+
+/// Checks that blobs are turned as the host says. The square of a quaternion's length has at most
+/// six roundings, half of which its root keeps; the root's reciprocal has 4u and the product one.
+fn check_turns(running: &Running, blobs: &[Bubble]) {
+    for (found, own) in running.blobs().iter().zip(blobs) {
+        let expected = DQuat::from_array(own.turn.map(f64::from)).normalize();
+        let off = (found.turn - expected).length();
+        assert!(off < 8.0 * U && found.id == own.id, "{found:?}, {own:?}");
+    }
+}
+
+/// Bound of a blob's turn after a step of the twin, whose spin has this error. A step turns by the
+/// tangent in place of the angle, whose cube over 3 is the difference; sum, normalization and the
+/// turn before have 16u.
+fn turned_by(dt: f64, spin: f64, off: f64) -> f64 {
+    let half = 0.5 * dt * spin;
+    0.5 * dt * off + half.powi(3) / 3.0 + 16.0 * U
 }
 
 /// Blobs at random positions in a box; some overlap.
@@ -137,45 +181,71 @@ pub fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bub
 pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
 
 /// The twin tests all pairs, and starts every step from the GPU's state, so that errors do not
-/// grow. A velocity is a sum of about twenty forces with about fifty roundings each; a force is at
-/// most about the stiffness times a radius. So the bound is 64 u of that, times dt; for positions
-/// it is dt times that, and the position's own rounding.
+/// grow. A velocity is a sum of forces with about fifty roundings each, so its bound is 64u of the
+/// sum of their sizes, times dt, and of the speed. A force of a pair is at most the stiffness times
+/// the distance at rest and the damping times the speeds, with a share of the masses up to 2; that
+/// of a solid is the solidity times the radius and the damping times the speed. A solid's distance
+/// also has some roundings of the place. For positions the bound is dt times that, and the
+/// position's own rounding.
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
     let settings = BlobSimulationSettings::default().with(|it| it.substeps = 1);
     let mut random = Random(4);
-    let blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
+    let mut blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
+    turn_at_random(&mut blobs, 7);
     let speeds: Vec<[f32; 3]> =
         blobs.iter().map(|_| [0, 1, 2].map(|_| random.between(-1.0, 1.0))).collect();
     let mut running = Running::new(&gpu, &blobs, &speeds, None);
+    check_turns(&running, &blobs);
     let slanted = Vec3::new(-0.6, 0.8, 0.0);
     let solids = [FLOOR, Solid::Plane { normal: slanted.to_array(), distance: -0.3 }];
     let planes: [Plane; 2] = [(DVec3::Y, 0.0), (slanted.as_dvec3(), f64::from(-0.3_f32))];
     let dt = 1.0 / 240.0_f32;
-    let u = crate::support::tolerance::U;
-    let (mut worst, mut touched) = (0.0_f64, 0);
+    let u = U;
+    let (mut worst, mut touched, mut spun) = (0.0_f64, 0, 0);
     for _ in 0..12 {
         let before = running.blobs();
         running.step(dt, &settings, &solids).expect("a step");
         let expected = twin::part(&before, &planes, &settings, dt.into());
+        let speed = |b: &twin::Blob| b.speed.length() + b.radius * b.spin.length();
+        let fast = before.iter().chain(&expected).map(speed).fold(0.0, f64::max);
         for ((found, expected), old) in running.blobs().iter().zip(&expected).zip(&before) {
-            let push = f64::from(settings.solidity) * old.radius;
-            let bound = 64.0 * u * (push * f64::from(dt) + 20.0);
+            let [stiff, rest, reach, damping] =
+                [settings.stiffness, settings.rest, settings.reach, settings.normal_damping]
+                    .map(f64::from);
+            let [solid, held] = [settings.solidity, settings.solid_damping].map(f64::from);
+            let sum = |other: &twin::Blob| old.radius + other.radius;
+            let beside = |other: &&twin::Blob| {
+                other.id != old.id && other.place.distance(old.place) < reach * sum(other)
+            };
+            let pair =
+                |other: &twin::Blob| 2.0 * (stiff * rest * sum(other) + 4.0 * damping * fast);
+            let pairs: f64 = before.iter().filter(beside).map(pair).sum();
+            let push = pairs + 2.0 * (solid * old.radius + held * fast) + 9.81;
+            let loose = 8.0 * u * solid * old.place.length() * f64::from(dt);
+            let bound = 64.0 * u * (push * f64::from(dt) + fast) + loose;
             let off = found.speed.distance(expected.speed);
             worst = worst.max(off / bound);
             assert!(off < bound, "{found:?}, {expected:?}");
-            assert!(
-                found.spin.distance(expected.spin) < 8.0 * bound / old.radius,
-                "{found:?}, {expected:?}"
-            );
+            let spin_bound = 8.0 * bound / old.radius;
+            assert!(found.spin.distance(expected.spin) < spin_bound, "{found:?}, {expected:?}");
+            let (turned, dt64) = ((found.turn - expected.turn).length(), f64::from(dt));
+            let spin = found.spin.length().max(expected.spin.length());
+            let turn_bound = turned_by(dt64, spin, spin_bound);
+            assert!(turned < turn_bound && found.id == old.id, "{found:?}, {expected:?}");
+            // About the blob's own axes, the same spin turns it elsewhere.
+            let own = old.turn * DQuat::from_scaled_axis(dt64 * expected.spin);
+            let elsewhere = [own, old.turn].map(|turn| (turn - found.turn).length());
+            spun += usize::from(elsewhere.iter().all(|off| *off > 4.0 * turn_bound));
             let bound = bound * f64::from(dt) + 4.0 * u * expected.place.length();
             assert!(found.place.distance(expected.place) < bound, "{found:?}, {expected:?}");
             touched += usize::from(expected.speed.distance(old.speed) > 0.1);
         }
     }
-    println!("speeds: worst {worst:.3} of the bound, {touched} pushed");
+    println!("speeds: worst {worst:.3} of the bound, {touched} pushed, {spun} turned");
     assert!(touched > 200, "only {touched} were pushed");
+    assert!(spun > 200, "only {spun} were turned");
 }
 
 /// Blobs in and around a box are pushed as the twin says: off its faces, edges and corners, and
@@ -600,10 +670,12 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     assert!(balls(&apart).iter().zip(&blobs).any(|(now, then)| *now != then.ball), "they move");
 }
 
+/// Blobs of any bits: the sound ones among them stay finite, and so does what is drawn of the others.
 #[test]
 fn hostile_bits_in_a_heap() {
     let gpu = Gpu::shared();
-    let mut words: Vec<u32> = bytemuck::cast_slice(&cloud(300, [1.0; 3], [0.02, 0.1], 3)).to_vec();
+    let sound = cloud(300, [1.0; 3], [0.02, 0.1], 3);
+    let mut words: Vec<u32> = bytemuck::cast_slice(&sound).to_vec();
     let mut speeds = vec![0x3f80_0000_u32; 900];
     let mut random = Random(4);
     spoil(&mut words, size_of::<Bubble>() / 4, &mut random);
@@ -615,8 +687,18 @@ fn hostile_bits_in_a_heap() {
         for _ in 0..5 {
             running.step(1.0 / 60.0, &BlobSimulationSettings::default(), &[FLOOR]).expect("a step");
         }
-        // Blobs with valid values stay valid.
-        let left = running.blobs().iter().filter(|b| b.place.is_finite() && b.radius > 0.0).count();
-        assert!(left >= 100, "{left} of 100 sound blobs");
+        let after = running.blobs();
+        for (i, blob) in after.iter().enumerate() {
+            // A few more roundings than a normalization has.
+            let turned = (blob.turn.length() - 1.0).abs() < 8.0 * U;
+            assert!(blob.radius.is_finite() && turned, "{i}: {blob:?}");
+            // Every third blob is as it was.
+            if i < sound.len() && i % 3 == 0 {
+                let finite = [blob.place, blob.speed, blob.spin].iter().all(|v| v.is_finite());
+                let radius = f64::from(sound[i].ball[3]);
+                let kept = blob.radius == radius || max_splits > 0 && blob.radius > 0.0;
+                assert!(finite && kept, "{i}: {blob:?}");
+            }
+        }
     }
 }

@@ -1,15 +1,16 @@
 //! Blobs that split when they separate from the heap.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use whitewater::Error;
 use whitewater::bubbles::{BlobSimulation, BlobSimulationConfig, BlobSimulationSettings};
 use whitewater::headless::Bubble;
 
-use super::heap::{FLOOR, Running, cloud};
+use super::heap::{FLOOR, Running, cloud, turn_at_random};
 use crate::reference::bubbles::heap::Blob;
 use crate::support::device::Gpu;
 use crate::support::scenes::Random;
+use crate::support::tolerance::U;
 
 const DT: f32 = 1.0 / 60.0;
 fn free() -> BlobSimulationSettings {
@@ -104,7 +105,8 @@ fn no_time_splits_nothing() {
     assert!((volume / whole - 1.0).abs() < 1.0e-5, "{volume} of {whole}");
 }
 
-/// In a heap, exactly those blobs split for which the rule holds.
+/// In a heap, exactly those blobs split for which the rule holds. A half is turned and moves as the
+/// whole, and has an id of its own.
 #[test]
 fn what_has_enough_beside_it_stays_whole() {
     let gpu = Gpu::shared();
@@ -118,6 +120,7 @@ fn what_has_enough_beside_it_stays_whole() {
     for blob in &mut blobs[..20] {
         blob.ball[0] += random.between(1.2, 6.0);
     }
+    turn_at_random(&mut blobs, 5);
     let max_splits = 3;
     let mut running = Running::halving(&gpu, &blobs, max_splits);
     let step = settings.with(|it| it.substeps = 1);
@@ -152,6 +155,11 @@ fn what_has_enough_beside_it_stays_whole() {
                 whole += u32::from(!splits);
             }
             if splits {
+                let (one, other) = (&after[k], &after[child]);
+                // The second half may be turned as the whole was before the step or after it.
+                let apart = [before[k].turn, one.turn].map(|q| (q - other.turn).length());
+                assert!(apart[0].min(apart[1]) < 4.0 * U, "{one:?}, {other:?}");
+                assert_eq!((one.speed, one.spin), (other.speed, other.spin), "{k} at {i}");
                 halved[k] += 1;
                 halved[child] = halved[k];
                 parting.insert(k, i);
@@ -160,6 +168,9 @@ fn what_has_enough_beside_it_stays_whole() {
         }
         assert!(after.iter().all(|b| b.place.is_finite() && b.speed.length() < 30.0), "{i}");
     }
+    let last = there(&running.blobs());
+    let ids: HashSet<u32> = last.iter().map(|blob| blob.id).collect();
+    assert_eq!(ids.len(), last.len(), "two blobs have one id");
     println!("{split} splits, {whole} stays");
     assert!(split > 60 && whole > 10_000, "{split} splits, {whole} stays");
 }

@@ -11,6 +11,9 @@ pub struct Blob {
     pub radius: f64,
     pub speed: DVec3,
     pub spin: DVec3,
+    /// Rotation to the world.
+    pub turn: DQuat,
+    pub id: u32,
 }
 
 impl Blob {
@@ -130,6 +133,7 @@ pub fn part_among(
         let most = own.radius / dt;
         new.speed *= (most / new.speed.length().max(1e-20)).min(1.0);
         new.place += dt * new.speed;
+        new.turn = DQuat::from_scaled_axis(dt * new.spin) * own.turn;
         new
     };
     blobs.iter().enumerate().map(one).collect()
