@@ -49,6 +49,10 @@ impl Waves {
         Self { up, amplitude, sines: (0..SINES).map(sine).collect() }
     }
 
+    pub fn up(&self) -> DVec3 {
+        self.up
+    }
+
     /// Gradient of the height at a place, for pixels of this width.
     pub fn slope(&self, place: DVec3, pixel: f64) -> DVec3 {
         let of = |(k, phase): &(DVec3, f64)| {
