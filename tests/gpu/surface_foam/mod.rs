@@ -89,14 +89,39 @@ impl Foamy {
         rig.draw_particles(&self.shot, &streams.particles())
     }
 
-    /// The sprites as the twin takes them.
+    /// Gives the particles densities from spray to water; those of some are invalid. The
+    /// ramp is a power of two wide and has eight steps, and amounts are short binary fractions, so
+    /// that the products with the amounts are exact.
+    fn torn(&mut self) {
+        let water = &mut self.shot.settings.water;
+        (water.rest_density, water.density_threshold, water.density_full) = (1024.0, 0.25, 0.75);
+        let density = |i: usize| match i % 11 {
+            9 => f32::NAN,
+            10 => 0.0,
+            k => 256.0 + 64.0 * k as f32,
+        };
+        self.shot.densities = Some((0..self.amounts.len()).map(density).collect());
+        self.amounts.iter_mut().for_each(|a| a[0] = (1024.0 * a[0]).round() / 1024.0);
+    }
+
+    /// Part of a particle that is not spray, in a frame without spray. Densities that are not above
+    /// 0 are no densities.
+    fn bulk(&self, particle: usize) -> f64 {
+        let water = &self.shot.settings.water;
+        let ends = [water.density_threshold, water.density_full]
+            .map(|part| f64::from(part) * f64::from(water.rest_density));
+        let density = self.shot.densities.as_ref().map(|d| f64::from(d[particle]));
+        density.filter(|d| *d > 0.0).map_or(1.0, |d| smoothstep(ends[0], ends[1], d))
+    }
+
+    /// The sprites as the twin takes them, in a frame without spray.
     pub fn sprites(&self) -> Vec<Sprite> {
         let view = self.shot.camera_view();
         let wide = |v: &[f32; 3]| DVec3::from(v.map(f64::from));
         (0..self.amounts.len())
             .map(|i| Sprite {
                 center: view.transform_point3(wide(&self.shot.positions[i])),
-                foam: f64::from(self.amounts[i][0]),
+                foam: f64::from(self.amounts[i][0]).clamp(0.0, 1.0) * self.bulk(i),
                 velocity: view.transform_vector3(wide(&self.velocities[i])),
                 age: f64::from(self.amounts[i][1]),
                 id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
@@ -180,6 +205,9 @@ fn foam_is_the_twins() {
                 // The case without the pattern has noise instead.
                 let look = &mut case.shot.settings.surface_foam;
                 (look.pattern, look.noise) = (pattern, 1.0 - pattern);
+                if fastest == 0.0 {
+                    case.torn();
+                }
                 let name = format!("foam-{level}-{splat:?}-{lens:?}-{fastest}-{pattern}");
                 let drawn = case.draw(&mut rig);
                 check(&name, &case, &drawn, level);
