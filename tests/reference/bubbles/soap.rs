@@ -1,6 +1,8 @@
 //! Twin of pass `soap`, ray by ray: light from films, walls and cores of blobs towards the eye, in
-//! an environment that is uniform or has a gradient to one side, without a sun, and the light that
+//! an environment that is uniform or has a gradient to one side, and of the sun, and the light that
 //! they transmit from behind. In water the layers are composited from back to front.
+
+use std::f64::consts::PI;
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -39,6 +41,19 @@ pub struct Look {
     pub radiance: DVec3,
     /// Gradient of the radiance relative to the mean; at most 1 long.
     pub side: DVec3,
+    pub sun: Sun,
+}
+
+/// The sun, as much of it as shines.
+#[derive(Clone, Copy, Debug)]
+pub struct Sun {
+    /// Direction to it.
+    pub to: DVec3,
+    /// Irradiance of a surface that faces it.
+    pub irradiance: DVec3,
+    /// Radiance of its mirror image, and the exponent by which that fades aside.
+    pub glint: DVec3,
+    pub shininess: f64,
 }
 
 impl Look {
@@ -46,7 +61,8 @@ impl Look {
     fn most(&self) -> DVec3 {
         // A seam of the pattern is at most this much brighter than the rest.
         let seams = 1.0 + 0.8 * self.pattern;
-        self.radiance * (1.0 + self.side.length()) * self.reflection.max(1.0) * seams
+        let sun = self.sun.glint + self.sun.irradiance / PI;
+        (self.radiance * (1.0 + self.side.length()) + sun) * self.reflection.max(1.0) * seams
     }
 
     /// Thickness of a film: it varies by the bubble's number and by position, and is thinner on top
@@ -64,13 +80,15 @@ impl Look {
 
     /// Radiance from a direction in world space.
     fn light(&self, direction: DVec3) -> DVec3 {
-        self.radiance * (1.0 + self.side.dot(direction))
+        let sun = self.sun.glint * direction.dot(self.sun.to).max(0.0).powf(self.sun.shininess);
+        self.radiance * (1.0 + self.side.dot(direction)) + sun
     }
 
     /// Light reflected by a white diffuse surface: the cosine-weighted mean of directions is two
-    /// thirds of the normal.
+    /// thirds of the normal. Foam scatters light, so that the sun reaches a little around it.
     fn whitewater(&self, normal: DVec3) -> DVec3 {
-        self.radiance * (1.0 + self.side.dot(normal) * 2.0 / 3.0)
+        let sun = self.sun.irradiance / PI * ((normal.dot(self.sun.to) + 0.4) / 1.4).max(0.0);
+        self.radiance * (1.0 + self.side.dot(normal) * 2.0 / 3.0) + sun
     }
 }
 
