@@ -92,17 +92,18 @@ fn verbose(name: &str, census: &crate::reference::Census) {
 }
 
 /// The twin's cube map of a map that is scaled and turned, and its bounds. `size`: edge of a face.
-/// `bits`: precision of filtered positions.
+/// `bits`: precision of filtered positions. `up`: number of the world's axis that points up.
 fn cube_of(
     map: &Image<[f32; 4]>,
     (size, bits): (u32, u32),
     (scale, turn): (f64, f64),
+    up: usize,
 ) -> impl Fn(usize, DVec2) -> (DVec3, DVec3) + Sync {
     move |face: usize, at: DVec2| {
         let (x, y) = (at.x as usize, at.y as usize);
         let (mut value, mut bound) = (DVec3::ZERO, DVec3::ZERO);
         for st in twin::quarters(x, y, size as usize) {
-            let d = twin::direction(face, st);
+            let d = twin::standing(twin::direction(face, st), up);
             let nudge = nudge(d, turn, map, bits);
             let position = twin::map_position(d, turn, map.width, map.height);
             let found = twin::sample(map, position, nudge);
@@ -114,7 +115,7 @@ fn cube_of(
     }
 }
 
-/// The texels are random, so that none can stand for another.
+/// The texels are random, so that none can stand for another. Up is each of the world's axes.
 #[test]
 fn a_map_becomes_the_twins_cube() {
     let mut gpu = Gpu::own();
@@ -132,11 +133,15 @@ fn a_map_becomes_the_twins_cube() {
         let map = Image { width, height, data: texels.clone() };
         for (scale, turn) in [(1.0_f32, 0.0_f32), (2.5, 0.7), (1.0, -2.5), (0.5, 7.0)] {
             let map_extent = extent(width as u32, height as u32);
-            rig.turned_environment(map_extent, &texels, scale, turn);
-            let (scale, turn) = (f64::from(scale), f64::from(turn));
-            let expected = cube_of(&map, (size, bits), (scale, turn));
-            let name = format!("environment-{width}x{height}-{size}-{turn:.1}");
-            check(&name, &rig, expected);
+            for up in [1, 0, 2] {
+                let mut upward = [0.0; 3];
+                upward[up] = 2.0;
+                rig.turned_environment(map_extent, &texels, (scale, turn, upward));
+                let of = (f64::from(scale), f64::from(turn));
+                let expected = cube_of(&map, (size, bits), of, up);
+                let name = format!("environment-{width}x{height}-{size}-{turn:.1}-{up}");
+                check(&name, &rig, expected);
+            }
         }
     }
 }
@@ -170,12 +175,12 @@ fn what_is_no_radiance_is_mended() {
     let mut rig = Rig::new(&gpu, &config(extent(16, 8)).with(|it| it.environment_size = size));
     let [bad, mended] = spoilt();
     for (scale, turn) in [(1.0_f32, 0.0_f32), (0.5, 0.7)] {
-        rig.turned_environment(extent(32, 16), &bad.data, scale, turn);
-        let expected = cube_of(&mended, (size, bits), (scale.into(), turn.into()));
+        rig.turned_environment(extent(32, 16), &bad.data, (scale, turn, [0.0, 1.0, 0.0]));
+        let expected = cube_of(&mended, (size, bits), (scale.into(), turn.into()), 1);
         check(&format!("environment-spoilt-{turn:.1}"), &rig, expected);
     }
     // A factor of 0 leaves nothing, not even of radiance that is too large for the sum of samples.
-    rig.turned_environment(extent(2, 1), &[[f32::MAX; 4]; 2], 0.0, 0.0);
+    rig.turned_environment(extent(2, 1), &[[f32::MAX; 4]; 2], (0.0, 0.0, [0.0, 1.0, 0.0]));
     check("environment-none", &rig, |_, _| (DVec3::ZERO, DVec3::splat(half_step(0.0))));
 }
 
@@ -256,7 +261,8 @@ fn radiance_over_half_precision_is_cut() {
     spy::install(&mut gpu);
     let gpu = gpu;
     let mut rig = Rig::new(&gpu, &config(extent(16, 8)));
-    rig.turned_environment(extent(2, 1), &[[1.0, 30.0, 1e30, 1.0]; 2], 2500.0, 0.0);
+    let bright = [[1.0, 30.0, 1e30, 1.0]; 2];
+    rig.turned_environment(extent(2, 1), &bright, (2500.0, 0.0, [0.0, 1.0, 0.0]));
     check("environment-bright", &rig, |_, _| {
         let value = DVec3::new(2500.0, 65_000.0, 65_000.0);
         (value, DVec3::from(value.to_array().map(half_step)))

@@ -32,6 +32,17 @@ pub fn face_of(d: DVec3) -> (usize, DVec2) {
     (face, (DVec2::new(s.dot(d), t.dot(d)) / axis.dot(d) + 1.0) / 2.0)
 }
 
+/// Direction in a map's own space, with +y up, of one in a world whose axis `up` points up. For z up
+/// the middle column looks along +y and the column at three quarters along +x, for x up along +z
+/// and +y.
+pub fn standing(d: DVec3, up: usize) -> DVec3 {
+    match up {
+        0 => DVec3::new(d.y, d.x, -d.z),
+        1 => d,
+        _ => DVec3::new(d.x, d.z, -d.y),
+    }
+}
+
 /// Position of a direction in an equirectangular map, in texels: the middle column is −z, the
 /// column at three quarters is +x. A positive turn moves the map from −z towards −x, like a
 /// right-handed rotation about +y.

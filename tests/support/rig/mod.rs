@@ -133,7 +133,7 @@ impl<'g> Rig<'g> {
 
     /// Sets an environment from an equirectangular image.
     pub fn environment(&mut self, size: vk::Extent2D, texels: &[[f32; 4]]) {
-        self.turned_environment(size, texels, 1.0, 0.0);
+        self.turned_environment(size, texels, (1.0, 0.0, [0.0, 1.0, 0.0]));
     }
 
     /// Sets an environment from an equirectangular image, multiplied by `scale` and rotated by
@@ -142,12 +142,10 @@ impl<'g> Rig<'g> {
         &mut self,
         size: vk::Extent2D,
         texels: &[[f32; 4]],
-        scale: f32,
-        turn: f32,
+        (scale, turn, up): (f32, f32, [f32; 3]),
     ) {
         let image = self.map(size, texels);
         let (image, without_sun) = (image.host_image(), None);
-        let up = [0.0, 1.0, 0.0];
         let source = Equirectangular::new(image).with(|it| {
             it.without_sun = without_sun;
             it.scale = scale;
