@@ -69,8 +69,8 @@ fn draw(gpu: &Gpu, shot: &Shot, bubbles: BubbleConfig) -> Soaped {
 }
 
 /// Four numbers: the fraction of pixels with the right first bubble, the fraction of pixels where
-/// only one of the two finds a bubble, and the mean and max error of the depth in radii of the
-/// blob.
+/// only one of the two finds a bubble, the mean error of the depth in radii of the blob, and the
+/// max error of pixels amid a bubble, whose eight neighbours show it too.
 fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f64) -> [f64; 4] {
     let (mut right, mut missed, mut all) = (0, 0, 0);
     let (mut sum, mut worst, mut met) = (0.0, 0.0_f64, 0);
@@ -86,7 +86,13 @@ fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f6
                 }
                 right += usize::from(found.layers[i][0] & 0xff == bubble as u32);
                 let off = (depth - there).abs() / radius;
-                (sum, worst, met) = (sum + off, worst.max(off), met + 1);
+                (sum, met) = (sum + off, met + 1);
+                let (x, y) = ((i % expected.width) as isize, (i / expected.width) as isize);
+                let amid = (0..9).all(|k| {
+                    let there = expected.clamped(x + k % 3 - 1, y + k / 3 - 1);
+                    there.first().is_some_and(|hit| hit.2 == bubble)
+                });
+                worst = if amid { worst.max(off) } else { worst };
             }
         }
     }
@@ -94,8 +100,8 @@ fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f6
     [part(right), part(missed), sum / f64::from(met), worst]
 }
 
-/// Both impostors with their default sizes and steps, and the error for other sizes and steps
-/// (plotted in docs/bubble-foam.md).
+/// Both impostors with their default sizes and steps. A bench has other sizes and steps (plotted in
+/// docs/bubble-foam.md).
 #[test]
 fn impostors_find_the_first_bubble() {
     let gpu = Gpu::shared();
@@ -110,9 +116,11 @@ fn impostors_find_the_first_bubble() {
     });
     let few = distance.with(|it| it.bubbles = 64);
     for (name, bubbles, bounds) in [
-        ("ids", standard, [0.9999, 0.0001, 1.0e-5]),
-        ("distance", distance, [0.0, 0.006, 0.002]),
-        ("distance, 64 bubbles", few, [0.0, 0.006, 0.002]),
+        // The eye is two radii from the blob, so the square under the hit's root errs by some 20u
+        // of 4. One pixel inside the outline of a bubble of 0.2 radii the root is above 0.07.
+        ("ids", standard, [0.9999, 0.0001, 1.0e-5, 1.0e-4]),
+        ("distance", distance, [0.0, 0.006, 0.002, 1.0]),
+        ("distance, 64 bubbles", few, [0.0, 0.006, 0.002, 1.0]),
     ] {
         for id in [0, 3, 8] {
             shot.blobs = vec![blob(&shot, [0.0, 0.0, 3.0], 1.4, id, &mut random)];
@@ -120,7 +128,7 @@ fn impostors_find_the_first_bubble() {
             let found = draw(&gpu, &shot, bubbles);
             let [right, missed, mean, worst] = errors(&found, &expected, 1.4);
             println!(
-                "{name}, {id}: right {right:.4}, missed {missed:.4}, depth {mean:.5} worst {worst:.3}"
+                "{name}, {id}: right {right:.4}, missed {missed:.4}, depth {mean:.5} worst {worst:.6}"
             );
             assert!(
                 right >= bounds[0] || bounds[0] == 0.0,
@@ -128,6 +136,7 @@ fn impostors_find_the_first_bubble() {
             );
             assert!(missed <= bounds[1], "{name}: {missed} of the pixels are missed or too many");
             assert!(mean <= bounds[2], "{name}: depth is off by {mean} radii in the mean");
+            assert!(worst <= bounds[3], "{name}: depth is off by {worst} radii amid a bubble");
         }
     }
 }
@@ -162,8 +171,7 @@ fn layers_are_the_nearest_blobs_in_order() {
         let (mut same, mut all) = (0, 0);
         for (layers, hits) in found.layers.iter().zip(&expected.data) {
             for (k, hit) in hits.iter().take(4).enumerate() {
-                // Pass `cast` skips layers behind opaque ones.
-                all += usize::from(layers[k] != NONE);
+                all += 1;
                 same += usize::from(layers[k] != NONE && (layers[k] >> 8) as usize == hit.1);
             }
         }
@@ -268,9 +276,8 @@ fn billboards_find_what_the_tiles_do() {
         for (a, b) in one.layers.iter().zip(&other.layers) {
             let last = layers as usize;
             for k in 0..last {
-                // Tiles stop where nothing more is visible.
-                all += usize::from(a[k] != NONE);
-                differ += usize::from(a[k] != NONE && a[k] != b[k]);
+                all += usize::from(a[k] != NONE || b[k] != NONE);
+                differ += usize::from(a[k] != b[k]);
             }
             // Tiles also stop when all layers are found and hide what is behind them.
             let [x, y] = [a, b].map(|words| f32::from_bits(words[last]));
