@@ -9,7 +9,8 @@ use whitewater::headless::scene::{Liquid, Material, Mesh, Scene, Sea, SunLight};
 use whitewater::headless::{Background, Headless};
 use whitewater::{Camera, Error, Settings};
 
-use crate::support::rig::{extent, finish, headless};
+use crate::support::device::Gpu;
+use crate::support::rig::{config, extent, finish, headless};
 use crate::support::scenes::{Lens, projection};
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 24 };
@@ -165,7 +166,9 @@ fn mirrored_by(sine: f64, variance: f64) -> (f64, f64) {
 /// the sky.
 #[test]
 fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
-    let mut headless = headless(SIZE);
+    // With texels of a third of a degree, which do not blur the horizon.
+    let fine = config(SIZE).with(|it| it.environment_size = 256);
+    let mut headless = Headless::new(Gpu::own().take_device(), &fine).expect("headless");
     // Radiance 0.2 + 0.6 y, and 0.2 below the horizon.
     let (width, height) = (256, 128);
     let sky: Vec<[f32; 4]> = (0..width * height)
@@ -213,7 +216,7 @@ fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
         let expected = mirrored * (0.2 + 0.6 * up);
         let i = (y * SIZE.width + x) as usize;
         let found = f64::from(far[i][1]);
-        // The environment has texels of a degree, and mip levels; Page's fit of the normal
+        // The sky has texels of 1.4 degrees, and the environment has mip levels; Page's fit of the normal
         // distribution errs by 2e-4.
         assert!((found / expected - 1.0).abs() < 0.03, "row {y}: {found}, not {expected}");
         // The fraction left through the haze, for each channel.
@@ -226,10 +229,15 @@ fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
             assert!((hazed - expected).abs() < most, "row {y}: {hazed}, not {expected}");
         }
     }
-    // At the horizon the air has the colour of the sky; a pixel is 2.8 degrees high.
+    // At the horizon the air has the colour of the sky there, at a sine of 0.02. The sky in the next
+    // row, half a pixel above the horizon, is nearly the same.
     let i = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
-    let sky = air[i - SIZE.width as usize][1];
-    assert!((air[i][1] - sky).abs() < 0.1, "{} {sky}", air[i][1]);
+    let half_pixel = (PI / 6.0).tan() / SIZE.height as f32;
+    for (found, up) in [(air[i][1], 0.02), (air[i - SIZE.width as usize][1], half_pixel)] {
+        let expected = 0.2 + 0.6 * up;
+        // The sky's texels of 1.4 degrees, a sine of 0.025, are interpolated over its kink at 0.
+        assert!((found - expected).abs() < 0.6 * 0.025 / 4.0, "{found} {expected}");
+    }
     finish(headless);
 }
 
@@ -256,6 +264,49 @@ fn what_is_not_seen_through_a_sea_is_as_it_was() {
             }
         }
     }
+    finish(headless);
+}
+
+/// Without other light, lava and what it lights are as bright as its radiance in each channel. Red
+/// glows in more places than green, and green in more than blue.
+#[test]
+fn lava_glows_by_its_radiance() {
+    let mut headless = headless(SIZE);
+    headless.equirectangular(extent(8, 4), &[[0.0, 0.0, 0.0, 1.0]; 32], 1.0, 0.0).expect("a map");
+    let mut glow = |radiance: [f32; 3]| {
+        let liquid = Liquid::Lava { radiance, speed: 0.1 };
+        let sun = SunLight { direction: [0.0, 1.0, 0.0], color: [0.0; 3] };
+        let scene = Scene { sun, ..stage(Some(Sea { liquid, ..lava() })) };
+        shot(&mut headless, &scene, &level(), false).0
+    };
+    let [red, other, white] = [[4.0, 0.0, 0.0], [0.0, 1.0, 4.0], [4.0, 4.0, 4.0]].map(&mut glow);
+    let mut brighter = [0; 2];
+    for ((red, other), white) in red.iter().zip(&other).zip(&white) {
+        assert_eq!([red[1], red[2], other[0]], [0.0; 3]);
+        // A quarter scales exactly, but for numbers below the least normal one of half precision.
+        let sums = [red[0], 4.0 * other[1], other[2]];
+        let near = sums.iter().zip(white).all(|(sum, white)| (sum - white).abs() < 4.0e-7);
+        assert!(near, "{red:?}, {other:?}, {white:?}");
+        brighter[0] += usize::from(white[0] > white[1] + 0.01);
+        brighter[1] += usize::from(white[1] > white[2] + 0.01);
+        assert!(white[0] >= white[1] && white[1] >= white[2], "{white:?}");
+    }
+    println!("{brighter:?}");
+    assert!(brighter.iter().all(|n| *n > 60), "{brighter:?}");
+    finish(headless);
+}
+
+/// Lava with a period looks the same a period later, and not in between.
+#[test]
+fn lava_repeats_after_its_period() {
+    let mut headless = headless(SIZE);
+    let sea = Sea { period: Some(4.0), ..lava() };
+    let mut at = |time: f64| {
+        shot(&mut headless, &Scene { time, ..stage(Some(sea.clone())) }, &from_above(), false).0
+    };
+    let [first, between, later] = [1.0, 3.0, 5.0].map(&mut at);
+    assert_eq!(first, later, "a period later");
+    assert_ne!(first, between, "half a period later");
     finish(headless);
 }
 
