@@ -302,28 +302,33 @@ fn surfaces_go_by_the_metre() {
     finish(headless);
 }
 
-/// The pattern of a mesh that moves moves with it: seen from a camera that moves alike, it looks the same.
+/// The pattern of a mesh that moves moves with it: seen from a camera that moves alike, it looks the
+/// same. That of a mesh built at the other place does not.
 #[test]
 fn patterns_move_with_their_mesh() {
     let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let boards = Material { pattern: Pattern::Planks { width: 0.2 }, ..matt() };
-    let door = |pose: Mat4| {
-        let mesh =
-            Mesh::cuboid([0.5, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0], boards.clone());
+    let door = |at: Vec3, pose: Mat4| {
+        let at = (Vec3::new(0.5, 0.0, 0.0) + at).to_array();
+        let mesh = Mesh::cuboid(at, [1.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0], boards.clone());
         let motion = Motion { meshes: vec![0], first_frame: 0, poses: vec![pose] };
         Scene { meshes: vec![mesh], motions: vec![motion], ..Scene::default() }
     };
     let eye = Vec3::new(0.4, 0.3, 4.0);
-    let mut seen = |pose: Mat4| {
-        let [eye, target, up] = [eye, Vec3::ZERO, eye + Vec3::Y].map(|p| pose.transform_point3(p));
+    let mut seen = |built: Vec3, pose: Mat4| {
+        let camera = Mat4::from_translation(built) * pose;
+        let [eye, target, up] =
+            [eye, Vec3::ZERO, eye + Vec3::Y].map(|p| camera.transform_point3(p));
         let view = Mat4::look_at_rh(eye, target, up - eye);
         let camera = Camera::of(view, projection(Lens::ReversedInfinite, SIZE));
-        shot(&mut headless, &door(pose), &camera).0
+        shot(&mut headless, &door(built, pose), &camera).0
     };
-    let expected = seen(Mat4::IDENTITY);
-    let shifted = seen(Mat4::from_translation(Vec3::new(0.33, 0.0, 0.07)));
-    let turned = seen(Mat4::from_rotation_z(0.4));
+    let by = Vec3::new(0.33, 0.0, 0.07);
+    let expected = seen(Vec3::ZERO, Mat4::IDENTITY);
+    let shifted = seen(Vec3::ZERO, Mat4::from_translation(by));
+    let turned = seen(Vec3::ZERO, Mat4::from_rotation_z(0.4));
+    let built = seen(by, Mat4::IDENTITY);
     let apart = |a: &[[f32; 4]]| {
         let differences = a.iter().zip(&expected).map(|(a, b)| (a[0] - b[0]).abs());
         differences.fold(0.0, f32::max)
@@ -331,5 +336,7 @@ fn patterns_move_with_their_mesh() {
     let most = [apart(&shifted), apart(&turned)];
     // The slope of the boards' edges is rounded.
     assert!(most.iter().all(|most| *most < 0.02), "{most:?}");
+    let other = apart(&built);
+    assert!(other > 0.1, "{other}: a pattern fixed to the world would not show");
     finish(headless);
 }
