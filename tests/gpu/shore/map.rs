@@ -97,12 +97,34 @@ fn distances_are_those_to_the_nearest_seed() {
     assert!(200 * missed < texels, "{missed} of {texels}");
 }
 
+/// The distances of slanted straight lines and of circles.
 #[test]
 fn circles_and_lines_are_as_far_as_they_are() {
     let gpu = Gpu::shared();
     let mut coasts = Mapped::new(&gpu, 128);
     let area = area(128);
     let from = middle(&area) + DVec2::new(0.3, -0.7);
+    for angle in [0.4_f64, 1.9, 3.6] {
+        let normal = DVec2::from_angle(angle);
+        let line = |p: DVec2| (p - from).dot(normal);
+        let level = f64::from(area.level);
+        coasts.image_step(&area, &heights(&area, 128, |p| level + 0.3 * line(p)), None);
+        let corner = DVec2::from(area.corner(128).map(f64::from));
+        let off = |(i, found): (usize, &f32)| {
+            let at = corner + TEXEL * DVec2::new((i % 128) as f64 + 0.5, (i / 128) as f64 + 0.5);
+            // The map has seeds for the lines in it alone.
+            let foot = (at - line(at) * normal - corner) / TEXEL;
+            let inside = foot.cmpgt(DVec2::ONE).all() && foot.cmplt(DVec2::splat(127.0)).all();
+            inside.then(|| (f64::from(*found) - line(at)).abs() / TEXEL)
+        };
+        let found = coasts.distances();
+        let all: Vec<_> = found.data.iter().enumerate().filter_map(off).collect();
+        let most = all.iter().copied().fold(0.0, f64::max);
+        println!("line at {angle}: {most:.4} texels at most, of {}", all.len());
+        assert!(all.len() > 128 * 128 / 4, "{} texels", all.len());
+        // A seed is rounded to sixteenths of a texel along both axes.
+        assert!(most < 0.05, "line at {angle}: {most} texels");
+    }
     for (radius, bounds) in [(10.0, [0.06, 0.03]), (3.0, [0.07, 0.03]), (0.625, [0.25, 0.1])] {
         let circle = |p: DVec2| radius - p.distance(from);
         let level = f64::from(area.level);
