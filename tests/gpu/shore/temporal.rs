@@ -148,8 +148,9 @@ fn far_foam_covers_what_near_foam_does() {
             }
         }
         println!("{width}: covers {mean:.4}, bias {bias:.5}, mean error {off:.5}");
-        // Details too fine for a pixel are replaced by their mean. Allowed are a bias of a tenth of
-        // the covered fraction, and 0.35 of it as the mean error of a pixel.
-        assert!(bias.abs() < 0.1 * mean && off < 0.35 * mean, "{bias} {off} of {mean}");
+        // Details too fine for a pixel are replaced by their mean, which is an estimate. Allowed is
+        // about twice what was measured: a bias of a hundredth of the covered fraction, and a
+        // seventh of it as the mean error of a pixel.
+        assert!(bias.abs() < 0.025 * mean && off < 0.3 * mean, "{bias} {off} of {mean}");
     }
 }
