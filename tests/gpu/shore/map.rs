@@ -122,8 +122,9 @@ fn circles_and_lines_are_as_far_as_they_are() {
         let most = all.iter().copied().fold(0.0, f64::max);
         println!("line at {angle}: {most:.4} texels at most, of {}", all.len());
         assert!(all.len() > 128 * 128 / 4, "{} texels", all.len());
-        // A seed is rounded to sixteenths of a texel along both axes.
-        assert!(most < 0.05, "line at {angle}: {most} texels");
+        // A seed lies between two centres of texels, and is rounded to sixteenths of a texel along
+        // that axis. The place itself has some roundings of 128 texels.
+        assert!(most < 1.0 / 32.0 + 1.0e-3, "line at {angle}: {most} texels");
     }
     for (radius, bounds) in [(10.0, [0.06, 0.03]), (3.0, [0.07, 0.03]), (0.625, [0.25, 0.1])] {
         let circle = |p: DVec2| radius - p.distance(from);
