@@ -305,3 +305,38 @@ fn highlights_and_relief_are_the_suns() {
         assert_eq!(plain != raised, seen, "relief, sun {lit}");
     }
 }
+
+/// A back sheet seen through a front sheet has a highlight of its own, where the sun reaches it.
+#[test]
+fn back_sheets_have_highlights_in_the_sun() {
+    let gpu = Gpu::shared();
+    // The front sheet leans so far that it mirrors the sun elsewhere.
+    let (sin, cos) = 25.0_f32.to_radians().sin_cos();
+    let mut points = scenes::block(3, 0.3, [28, 22, 2], [-4.2, -3.3, 0.0]);
+    points
+        .iter_mut()
+        .for_each(|[x, _, z]| (*x, *z) = (*x * cos - *z * sin, 5.0 + *x * sin + *z * cos));
+    points.extend(scenes::block(3, 0.3, [40, 28, 2], [-6.0, -4.2, 12.0]));
+    let mut shot = Shot::new(SIZE, Lens::Standard, 0.2, &points);
+    let sun = shot.camera_view().inverse().transform_vector3(DVec3::new(0.1, 0.2, 1.0));
+    shot.settings.light.direction = sun.normalize().as_vec3().to_array();
+    let mut shining = |sheets: u32, sun: f32| {
+        let config = config(SIZE).with(|it| {
+            it.shadow = Some(Shadows::Mask);
+            it.sheets = sheets;
+        });
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let (_texture, shadow) = even(&rig, sun);
+        shot.shadow = Some(shadow);
+        let [dull, bright] = [0.0, 1.0].map(|specular| {
+            shot.settings.water.specular = specular;
+            rig.draw(&shot)
+        });
+        let both = dull.output.data.iter().zip(&bright.output.data).zip(&dull.depth.data);
+        // Pixels of the front sheet; the pane behind is at 12.
+        both.filter(|((a, b), z)| **z < 8.0 && b[0] > a[0] + 0.01).count()
+    };
+    let [front, both, dark] = [(1, 1.0), (2, 1.0), (2, 0.0)].map(|(n, sun)| shining(n, sun));
+    println!("{front} pixels shine with one sheet, {both} with two, {dark} without a sun");
+    assert!(both > front + 20 && dark == 0, "{front}, {both}, {dark}");
+}
