@@ -184,13 +184,17 @@ pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 }
 /// grow. A velocity is a sum of forces with about fifty roundings each, so its bound is 64u of the
 /// sum of their sizes, times dt, and of the speed. A force of a pair is at most the stiffness times
 /// the distance at rest and the damping times the speeds, with a share of the masses up to 2; that
-/// of a solid is the solidity times the radius and the damping times the speed. A solid's distance
+/// of a solid is the solidity times the radius and the damping times the speed; the lift of water is
+/// the weight over the density. A solid's distance
 /// also has some roundings of the place. For positions the bound is dt times that, and the
 /// position's own rounding.
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
-    let settings = BlobSimulationSettings::default().with(|it| it.substeps = 1);
+    let settings = BlobSimulationSettings::default().with(|it| {
+        it.substeps = 1;
+        (it.water, it.density) = (Some(0.5), 0.25);
+    });
     let mut random = Random(4);
     let mut blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
     turn_at_random(&mut blobs, 7);
@@ -222,7 +226,7 @@ fn a_step_is_the_twins() {
             let pair =
                 |other: &twin::Blob| 2.0 * (stiff * rest * sum(other) + 4.0 * damping * fast);
             let pairs: f64 = before.iter().filter(beside).map(pair).sum();
-            let push = pairs + 2.0 * (solid * old.radius + held * fast) + 9.81;
+            let push = pairs + 2.0 * (solid * old.radius + held * fast) + 9.81 / 0.25;
             let loose = 8.0 * u * solid * old.place.length() * f64::from(dt);
             let bound = 64.0 * u * (push * f64::from(dt) + fast) + loose;
             let off = found.speed.distance(expected.speed);

@@ -109,9 +109,17 @@ pub fn part_among(
                 spin += b;
             }
         }
+        // Water carries the part of a blob that is under it, in proportion to the displaced mass, and
+        // brakes it by 8 1/s.
+        let height = -own.place.dot(gravity.normalize_or_zero());
+        let under = s.water.map_or(0.0, |level| {
+            ((f64::from(level) - height + own.radius) / (2.0 * own.radius)).clamp(0.0, 1.0)
+        });
+        let pull = gravity * (1.0 - under / f64::from(s.density));
         let drag = 1.0 + dt * f64::from(s.drag);
+        let slowed = 1.0 + dt * (f64::from(s.drag) * (1.0 - under) + 8.0 * under);
         let mut new = *own;
-        new.speed = (own.speed + dt * (speed + gravity)) / drag;
+        new.speed = (own.speed + dt * (speed + pull)) / slowed;
         new.spin = (own.spin + dt * spin) / drag;
         for (n, away) in solids(own.place) {
             let deep = f64::from(s.contact) * own.radius - away;
