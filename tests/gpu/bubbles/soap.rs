@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::bubbles::{BubbleConfig, BubbleSettings};
+use whitewater::bubbles::{BubbleConfig, BubbleSettings, Impostor};
 use whitewater::headless::Bubble;
 use whitewater::water::Shadows;
 
@@ -416,6 +416,45 @@ fn sunlit_films_and_cores_are_the_twins() {
             }
             before = Some(found);
         }
+    }
+}
+
+/// Both impostors turn a blob's surface alike: lit by the sun alone, they look more alike than one of
+/// them does with a sun from the other side.
+#[test]
+fn both_impostors_are_lit_from_one_side() {
+    let gpu = Gpu::shared();
+    let lit = |impostor: Impostor, aside: DVec3| {
+        let bubbles = BubbleConfig::new(1).with(|it| {
+            (it.variants, it.bubbles, it.impostor) = (1, 28, impostor);
+            (it.map_size, it.steps) = (impostor.map_size(), impostor.steps());
+        });
+        let size = extent(112, 96);
+        let mut rig = Rig::with_slots(&gpu, &config(size).with(|it| it.bubbles = Some(bubbles)), 1);
+        rig.environment(extent(2, 1), &[[0.0, 0.0, 0.0, 1.0]; 2]);
+        let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+        shot.blobs = vec![blob(&shot, [0.0, 0.0, 3.0], 1.4, 3, &mut Random(11))];
+        // An opaque core without films, whose normals are those of the bubbles.
+        shot.settings.bubbles = even(380.0).with(|it| {
+            [it.core_opaque_radius, it.core_outer_radius] = [1.9, 2.0];
+            (it.reflection, it.roundness) = (0.0, 0.0);
+        });
+        let to = shot.camera_view().inverse().transform_vector3(aside);
+        shot.settings.light.direction = to.normalize().as_vec3().to_array();
+        shot.settings.light.shade = [0.0; 3];
+        rig.draw(&shot).soap.expect("bubble foam").color
+    };
+    for aside in [DVec3::new(0.9, 0.1, 0.4), DVec3::new(0.1, 0.9, 0.4)] {
+        let across = DVec3::new(-aside.x, -aside.y, aside.z);
+        let [own, exact] = [Impostor::Distance, Impostor::Ids].map(|it| lit(it, aside));
+        let other = lit(Impostor::Ids, across);
+        let apart = |a: &Image<[f32; 4]>, b: &Image<[f32; 4]>| {
+            a.data.iter().zip(&b.data).map(|(a, b)| f64::from((a[0] - b[0]).abs())).sum::<f64>()
+                / a.data.len() as f64
+        };
+        let [same, mirrored] = [&exact, &other].map(|it| apart(&own, it));
+        println!("{aside}: {same:.4} apart, {mirrored:.4} with the sun on the other side");
+        assert!(mirrored > 0.05 && 4.0 * same < mirrored, "{same}, {mirrored}");
     }
 }
 
