@@ -296,6 +296,32 @@ fn lava_glows_by_its_radiance() {
     finish(headless);
 }
 
+/// Lava flows where the sea says, with its speed: from a camera that moves alike it looks the same.
+#[test]
+fn lava_flows_with_its_speed() {
+    let mut headless = headless(SIZE);
+    let liquid = Liquid::Lava { radiance: [4.0; 3], speed: 0.5 };
+    let sea = Sea { liquid, towards: [-1.2, 1.6], ..lava() };
+    let aside = Mesh::plane([900.0, -1.0, 0.0], [1.0, 1.0], Material::default());
+    let mut at = |time: f64, eye: [f32; 2]| {
+        let sea = Some(sea.clone());
+        let scene = Scene { time, sea, meshes: vec![aside.clone()], ..Scene::default() };
+        let [x, z] = eye;
+        let above = camera([x, 10.0, z], [x, 0.0, z], [0.0, 0.0, -1.0], Lens::ReversedInfinite);
+        shot(&mut headless, &scene, &above, false).0
+    };
+    let first = at(0.0, [0.0, 0.0]);
+    // In two seconds it goes one metre.
+    let [along, still] = [[-0.6, 0.8], [0.0, 0.0]].map(|eye| at(2.0, eye));
+    let apart = |other: &[[f32; 4]]| {
+        first.iter().zip(other).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f32>() / first.len() as f32
+    };
+    let (moved, off) = (apart(&still), apart(&along));
+    println!("{moved} from the same place, {off} from one that moves alike");
+    assert!(moved > 0.1 && off < 0.01 * moved, "{moved}, {off}");
+    finish(headless);
+}
+
 /// Lava with a period looks the same a period later, and not in between. It moves on without a jump
 /// where one period ends and the next begins.
 #[test]

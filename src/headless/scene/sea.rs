@@ -220,4 +220,21 @@ mod tests {
         }
         assert_ne!(sea.waves_at(0.0), sea.waves_at(1.0));
     }
+
+    /// The largest waves run where the sea says, and each crest has the speed of its length on deep water.
+    #[test]
+    fn crests_run_with_their_speed() {
+        let towards = [-0.6, 0.8];
+        let sea = Sea { towards, ..Sea::default() };
+        let (before, after) = (sea.waves_at(0.0), sea.waves_at(0.01));
+        let way = |wave: &[f32; 4]| DVec2::new(wave[0].into(), wave[1].into());
+        assert!(way(&before[0]).normalize().distance(DVec2::from(towards.map(f64::from))) < 1e-6);
+        for (a, b) in before.iter().zip(&after) {
+            let number = way(a).length();
+            let speed = (9.81 / number).sqrt();
+            // A place that moves with a crest stays at its phase, which single precision rounds.
+            let apart = (number * speed * 0.01 + f64::from(b[3] - a[3])).rem_euclid(TAU);
+            assert!(apart.min(TAU - apart) < 1e-5, "{a:?} {b:?}");
+        }
+    }
 }

@@ -90,3 +90,32 @@ fn a_blob_casts_the_shadow_of_its_core() {
         );
     }
 }
+
+/// A blob does not lie in the shadow of its own core, however coarse the map of shadows is: with the
+/// sun behind the eye it looks as without the map.
+#[test]
+fn a_blob_does_not_shade_its_own_sunny_side() {
+    let gpu = Gpu::shared();
+    let size = extent(128, 96);
+    let seen = |texels: Option<u32>| {
+        let config = config(size).with(|it| {
+            it.bubbles = Some(BubbleConfig::new(4).with(|it| (it.variants, it.bubbles) = (1, 32)));
+            it.light_map_size = texels;
+        });
+        let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+        let at = Vec3::from(scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0]);
+        let sun = shot.camera_view().inverse().transform_vector3(DVec3::new(0.1, 0.15, 1.0));
+        shot.settings.light.direction = sun.normalize().as_vec3().to_array();
+        shot.settings.light.shade = [0.0; 3];
+        let turn = [0.0, 0.0, 0.0, 1.0];
+        shot.blobs = vec![Bubble { ball: at.extend(0.5).to_array(), turn, id: 0 }];
+        shot.light_volume = texels.map(|_| LightVolume { center: at.to_array(), radius: 4.0 });
+        Rig::lit(&gpu, &config, 1).draw(&shot).soap.expect("bubble foam").color
+    };
+    let open = seen(None);
+    let covered = open.data.iter().filter(|c| c[3] > 0.0).count();
+    assert!(covered > 300, "{covered} pixels");
+    for texels in [256, 128] {
+        assert_eq!(seen(Some(texels)).data, open.data, "{texels} texels");
+    }
+}
