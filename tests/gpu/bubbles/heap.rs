@@ -695,7 +695,7 @@ fn hostile_bits_in_a_heap() {
         }
         let after = running.blobs();
         for (i, blob) in after.iter().enumerate() {
-            // A few more roundings than a normalization has.
+            // A normalization has fewer roundings.
             let turned = (blob.turn.length() - 1.0).abs() < 8.0 * U;
             assert!(blob.radius.is_finite() && turned, "{i}: {blob:?}");
             // Every third blob is as it was.

@@ -356,7 +356,8 @@ fn films_walls_cores_and_plugs_are_the_twins() {
         wide /= f64::from(covered);
         let [two, three, walls, plugs] = seen;
         println!(
-            "{name}: mean error {:.1e}, worst {:.1e}, {:.2} of the bound, which is {wide:.4} in the mean; of {covered} pixels {two} show two blobs, {three} three, {walls} a wall, {plugs} a plug",
+            "{name}: mean error {:.1e}, worst {:.1e}, {:.2} of the bound, which is {wide:.4} in the \
+             mean; of {covered} pixels {two} show two blobs, {three} three, {walls} a wall, {plugs} a plug",
             own.sum / f64::from(covered),
             own.worst,
             own.part
