@@ -67,6 +67,10 @@ def draw(name, sequence, options):
         arguments += ["--scene", cache / "scene.json"]
     else:
         source = options.data / sequence["input"]
+    if "settings" in sequence:
+        settings = folder / "settings.toml"
+        settings.write_text(sequence["settings"])
+        arguments += ["--settings", settings]
     command = [options.whitewater, "render", source, "--size", options.size, "--layers", "water.depth,water.surface,motion",
                *arguments, *shlex.split(options.arguments)]
     if not options.keep:
