@@ -467,14 +467,14 @@ mod tests {
         known.positions.reverse();
         known.ids = Some((0..1000).rev().collect());
         assert!(nearly(&velocities(&now, &known, 0.1).unwrap(), [0.5, 0.0, -0.2]));
-        // A particle that is new or has jumped is at rest.
-        known.ids = Some((1..1001).rev().collect());
+        // A particle that is new or has jumped is at rest; the others move as before.
+        let mut ids: Vec<u32> = (0..1000).rev().collect();
+        ids[999] = 1000;
+        known.ids = Some(ids);
         known.positions[0] = [90.0; 3];
-        let mut ids: Vec<u32> = (0..1000).collect();
-        ids.swap(0, 5);
-        now.ids = Some(ids);
         let found = velocities(&now, &known, 0.1).unwrap();
-        assert_eq!(found[5], [0.0; 3]);
+        assert_eq!([found[0], found[999]], [[0.0; 3]; 2]);
+        assert!(nearly(&found[1..999], [0.5, 0.0, -0.2]));
     }
 
     /// Frames of these numbers, each with the text of its file; one without a text has no file.
@@ -501,18 +501,26 @@ mod tests {
         let fluids = Fluids::default();
         let large = 1 << 24;
         let file = |moved: f64| rows("x,y,z", moved, "");
+        // Velocities of the second and the third frame; a frame without a file has none.
+        let (fast, slow) = (Some(0.2), Some(0.1));
         for (files, expected) in [
-            ([(large + 1, file(0.0)), (large + 2, file(0.01)), (large + 3, file(0.02))], 0.1),
-            ([(1, file(0.0)), (2, None), (3, file(0.02))], 0.1),
-            ([(1, None), (3, file(0.0)), (4, file(0.02))], 0.2),
+            (
+                [(large + 1, file(0.0)), (large + 2, file(0.01)), (large + 3, file(0.02))],
+                [slow, slow],
+            ),
+            ([(1, file(0.0)), (2, None), (3, file(0.02))], [None, slow]),
+            ([(1, None), (3, file(0.0)), (4, file(0.02))], [fast, fast]),
         ] {
             let folder = tempfile::tempdir().unwrap();
             let all = frames(&folder, &files);
-            for frame in &all[1..] {
+            for (frame, expected) in all[1..].iter().zip(expected) {
                 let mut reader = Reader::new(&all, Placing::default(), (&[], &fluids), Some(10.0));
-                let Ok(read) = reader.read(frame) else { continue };
-                let found = read.velocities.unwrap();
-                assert!(nearly(&found, [expected, 0.0, 0.0]), "{}: {:?}", frame.number, found[0]);
+                let read = reader.read(frame).ok();
+                let found = read.map(|read| read.velocities.unwrap());
+                assert_eq!(found.is_some(), expected.is_some(), "{}", frame.number);
+                if let (Some(found), Some(x)) = (found, expected) {
+                    assert!(nearly(&found, [x, 0.0, 0.0]), "{}: {:?}", frame.number, found[0]);
+                }
             }
         }
     }

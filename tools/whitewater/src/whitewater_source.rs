@@ -667,6 +667,21 @@ mod tests {
         assert_eq!(turned.positions[25..], all.positions[..5]);
     }
 
+    /// The kind that is named on the command line overrides the kinds in the file. Without either, all is foam.
+    #[test]
+    fn a_named_kind_overrides_the_files() {
+        let mut read = Particles::from_positions(vec![[0.0; 3]; 3]);
+        let kinds = |read: &Particles, kind| {
+            Part::new(read.clone(), kind, (Placing::default(), None, None), 0, 0.0).kinds
+        };
+        assert_eq!([None, Some(1)].map(|kind| kinds(&read, kind)), [[0; 3], [1; 3]]);
+        read.kinds = Some(vec![0, 1, 2]);
+        assert_eq!(
+            [None, Some(1), Some(2)].map(|kind| kinds(&read, kind)),
+            [[0, 1, 2], [1; 3], [2; 3]]
+        );
+    }
+
     /// Test: copies of moving spray lie along its motion; those of foam, and of spray at rest, lie as without velocities.
     #[test]
     fn copies_of_what_flies_are_a_strand() {
@@ -736,6 +751,8 @@ mod tests {
     fn files_are_named_with_their_kind() {
         let of = |kind, files: &str| Ok(Whitewater::Files { kind, files: files.into() });
         assert_eq!(named("a_%d.bgeo"), of(None, "a_%d.bgeo"));
+        assert_eq!(named("foam=b*.ply"), of(Some(0), "b*.ply"));
+        assert_eq!(named("spray=b*.ply"), of(Some(1), "b*.ply"));
         assert_eq!(named("bubble=b*.ply"), of(Some(2), "b*.ply"));
         assert_eq!(named("oil=b.ply"), of(None, "oil=b.ply"));
         assert_eq!(named("generate"), Ok(Whitewater::Generate));

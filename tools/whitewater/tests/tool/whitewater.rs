@@ -86,6 +86,18 @@ fn files_of_one_kind_are_that_kind() {
     };
     assert!(sum("a_2.exr") > 1.5 * sum("a_1.exr") && sum("a_1.exr") > 0.0);
     assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
+    // The same as a column of the file says, and no kind looks like another.
+    folder.particles("plain.ply", vec![[0.0, 0.0, 0.4]]);
+    let layers = "--layers whitewater.thickness,whitewater.submerged";
+    let common = format!("render water_1.ply {SMALL} {FRONT} --settings look.toml {layers}");
+    let drawn = [("foam", 0), ("spray", 1), ("bubble", 2)].map(|(name, kind)| {
+        folder.text("typed.csv", &format!("x,y,z,type\n0,0,0.4,{kind}\n"));
+        folder.run(&format!("{common} --whitewater {name}=plain.ply -o {name}.exr")).ok();
+        folder.run(&format!("{common} --whitewater typed.csv -o typed.exr")).ok();
+        folder.run(&format!("compare {name}.exr typed.exr --tolerance 0")).ok();
+        folder.picture(&format!("{name}.exr")).rgb().unwrap()
+    });
+    assert!(drawn[0] != drawn[1] && drawn[1] != drawn[2] && drawn[2] != drawn[0]);
 }
 
 /// Foam that fills a box, as few particles and as many. Their radii, derived from the count, make it opaque enough to
