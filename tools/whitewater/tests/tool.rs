@@ -10,6 +10,8 @@ mod bench;
 mod failures;
 #[path = "tool/info_compare.rs"]
 mod info_compare;
+#[path = "tool/mp4.rs"]
+mod mp4;
 #[path = "tool/pattern.rs"]
 mod pattern;
 #[path = "tool/pictures.rs"]

@@ -1,7 +1,10 @@
 //! Sequences: names, ranges, reruns, bad frames.
 
+use openh264::decoder::Decoder;
+use openh264::formats::YUVSource;
 use whitewater::io::picture::{EMPTY, Layers};
 
+use super::mp4::Frames;
 use super::support::{FRONT, Folder, GROUND, SIZE, SMALL, block};
 
 fn sequence(folder: &Folder) {
@@ -77,6 +80,44 @@ fn a_film_has_all_frames() {
     // Without a film there is nothing that the rate could set.
     for command in ["render f_8.ply", "render --bubbles one", "demo"] {
         folder.run(&format!("{command} -o c.png --film-fps 6")).fails(2, &["--film-fps", ".mp4"]);
+    }
+}
+
+/// The pictures of a film are those of the PNGs of the same run, in the same order and light.
+#[test]
+fn a_film_shows_what_the_pngs_show() {
+    let folder = Folder::new();
+    let moved = |x: f32| block(6).into_iter().map(|p| [p[0] + x, p[1], p[2]]).collect();
+    folder.particles("f_1.ply", moved(-0.5));
+    folder.particles("f_2.ply", moved(0.5));
+    let look = format!("{GROUND} {FRONT} --medium milk --surface-foam none --spray none");
+    let shown = "--tone linear --exposure -1";
+    folder.run(&format!("render f_%d.ply -o a.mp4 -o a_%d.png {look} {shown}")).ok();
+    let film = Frames::of(&std::fs::read(folder.path("a.mp4")).unwrap());
+    let mut decoder = Decoder::new().unwrap();
+    decoder.decode(&film.head).unwrap();
+    let decoded: Vec<Vec<f32>> = film
+        .frames
+        .iter()
+        .map(|(frame, _)| {
+            let picture = decoder.decode(frame).unwrap().unwrap();
+            let rows = picture.y().chunks(picture.strides().0).take(64);
+            rows.flat_map(|row| row[..96].iter().map(|y| f32::from(*y))).collect()
+        })
+        .collect();
+    assert_eq!(decoded.len(), 2);
+    // BT.709's luma of 8 bits, 16 for black and 235 for white.
+    let luma = |[r, g, b]: [f32; 3]| 16.0 + 219.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+    let pictures = [1, 2].map(|frame| folder.picture(&format!("a_{frame}.png")).rgb().unwrap());
+    let pictures = pictures.map(|picture| picture.into_iter().map(luma).collect::<Vec<_>>());
+    let apart = |a: &[f32], b: &[f32]| {
+        let sum = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f32>();
+        (sum / a.len() as f32).sqrt()
+    };
+    // The quantizer is at most 24, whose steps are 0.625 * 2^(24/6) = 10. A value is within two thirds of a step.
+    for (i, frame) in decoded.iter().enumerate() {
+        let (own, other) = (apart(frame, &pictures[i]), apart(frame, &pictures[1 - i]));
+        assert!(own < 6.7 && other > 13.4, "frame {i}: {own} from its own, {other} from the other");
     }
 }
 
@@ -310,6 +351,7 @@ fn a_camera_alone_makes_motion() {
         ["motion.X", "motion.Y"].map(|name| {
             let all = picture.channel(name).unwrap().iter().enumerate();
             let seen = all.filter(|(i, _)| water.is_none_or(|z| z[*i] < EMPTY));
+            let seen = seen.inspect(|(i, v)| assert!(v.is_finite(), "{name} at {i}"));
             seen.map(|(_, v)| v.abs()).fold(0.0, f32::max)
         })
     };
