@@ -307,6 +307,20 @@ mod tests {
         }
     }
 
+    /// Each stop doubles the light: light of 0.25 that is raised by a stop has the code of 0.5, which is 0.7354.
+    #[test]
+    fn stops_double_the_light() {
+        let mut layers = Layers::new(1, 1);
+        for name in ["R", "G", "B"] {
+            layers.push(name, 1, 1, vec![0.25]).unwrap();
+        }
+        for (exposure, code) in [(1.0, 0.735_357), (0.0, 0.537_099), (-1.0, 0.388_573)] {
+            let shown = layers.shown(&Display { exposure, tone: Tone::Linear, alpha: false });
+            let [found, ..] = shown.unwrap()[0];
+            assert!((found - code).abs() < 1.0e-5, "{exposure}: {found}");
+        }
+    }
+
     /// A PNG with alpha stores, for a pixel that a colour covers by half, this colour undarkened and an opacity of a
     /// half.
     #[test]

@@ -179,6 +179,39 @@ mod tests {
         assert_eq!(Tone::default().map([0.9, 3.0, 0.1]), neutral([0.9, 3.0, 0.1]));
     }
 
+    /// Saturated colours are those of the published matrices and curves, evaluated in double precision.
+    #[test]
+    fn film_curves_mix_colours_as_published() {
+        for (light, aces, agx) in [
+            ([0.5, 0.1, 0.05], [0.58947, 0.10959, 0.04634], [0.54328, 0.15378, 0.08333]),
+            ([0.1, 0.4, 0.05], [0.15179, 0.47429, 0.06502], [0.15632, 0.46155, 0.08865]),
+            ([0.05, 0.2, 0.6], [0.05340, 0.24285, 0.60465], [0.11390, 0.28178, 0.56625]),
+        ] {
+            for (tone, expected) in [(Tone::Aces, aces), (Tone::Agx, agx)] {
+                let found = tone.map(light);
+                // The curves and products round a dozen times.
+                let off = found.iter().zip(expected).map(|(a, b): (_, f32)| (a - b).abs());
+                assert!(off.into_iter().all(|off| off < 2.0e-5), "{tone:?} {light:?}: {found:?}");
+            }
+        }
+    }
+
+    /// Pairs of light and its code, from the formula of IEC 61966-2-1 in double precision.
+    #[test]
+    fn srgb_is_the_standards_curve() {
+        for (light, code) in [
+            (0.001, 0.012_92),
+            (0.003_130_8, 0.040_45),
+            (0.01, 0.099_852_8),
+            (0.214_041_1, 0.5),
+            (0.5, 0.735_357),
+            (1.0, 1.0),
+        ] {
+            assert!((srgb_encode(light) - code).abs() < 1.0e-6, "{light}: {}", srgb_encode(light));
+            assert!((srgb_decode(code) - light).abs() < 1.0e-6, "{code}: {}", srgb_decode(code));
+        }
+    }
+
     #[test]
     fn srgb_and_back() {
         for i in 0..=255 {
