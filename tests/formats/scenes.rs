@@ -2,6 +2,7 @@
 //! count.
 
 use whitewater::headless::scene::Scene;
+use whitewater::io::picture::{Layers, write_png_values};
 
 use super::allocation;
 use super::bad::{damaged, numbers};
@@ -101,6 +102,69 @@ fn nodes_without_a_scene_are_a_tree() {
     assert!(json.len() < GLB.len());
     let scene = Scene::parse_glb(&glb(json.as_bytes())).expect("two nodes");
     assert_eq!(scene.meshes.len(), 2);
+}
+
+/// A node is placed by its own turn, stretch and move, then by its parent's; a matrix is stored by columns. Expected
+/// places are worked out by hand.
+#[test]
+fn nodes_are_placed_and_coloured() {
+    let nodes = r#"[{"children":[1],"rotation":[0,0.70710678,0,0.70710678],"translation":[10,0,0]},
+        {"name":"child","mesh":0,"translation":[1,2,3],"scale":[2,3,4]},
+        {"name":"turned","mesh":0,"matrix":[0,0,1,0, 1,0,0,0, 0,1,0,0, 5,6,7,1]}]"#;
+    let (head, rest) = GLB.split_once("\"nodes\":[{\"mesh").unwrap();
+    let (_, tail) = rest.split_once("\"meshes\"").unwrap();
+    let json = format!("{head}\"nodes\":{nodes},\"meshes\"{tail}");
+    let json = json.replace("\"nodes\":[0]", "\"nodes\":[0,2]");
+    let json = json.replace("[0.5,0.4,0.3,1]", "[0.5,0.4,0.3,1],\"roughnessFactor\":0.7");
+    let scene = Scene::parse_glb(&glb(json.as_bytes())).expect("two meshes");
+    assert_eq!(scene.meshes.len(), 2);
+    for (name, expected) in [
+        // A quarter turn about y takes (x, y, z) to (z, y, -x).
+        ("child", [[13.0, 2.0, -1.0], [13.0, 2.0, -3.0], [13.0, 5.0, -1.0]]),
+        ("turned", [[5.0, 6.0, 7.0], [5.0, 6.0, 8.0], [6.0, 6.0, 7.0]]),
+    ] {
+        let mesh = scene.meshes.iter().find(|mesh| mesh.name == name).expect(name);
+        for (position, expected) in mesh.positions.iter().zip(expected) {
+            let found = mesh.transform.transform_point3((*position).into()).to_array();
+            let near = found.iter().zip(expected).all(|(a, b): (_, f32)| (a - b).abs() < 1.0e-5);
+            assert!(near, "{name}: {found:?}, not {expected:?}");
+        }
+        assert_eq!((mesh.material.base_color, mesh.material.roughness), ([0.5, 0.4, 0.3], 0.7));
+    }
+}
+
+/// A .gltf with its data and its texture in files beside it.
+#[test]
+fn data_and_textures_beside_a_gltf_are_read() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("beside");
+    std::fs::create_dir_all(&folder).unwrap();
+    let bytes = glb(b"");
+    std::fs::write(folder.join("t.bin"), &bytes[bytes.len() - 44..]).unwrap();
+    let mut picture = Layers::new(2, 1);
+    for (name, data) in [("R", [1.0, 0.0]), ("G", [0.0, 1.0]), ("B", [0.0, 1.0]), ("A", [1.0; 2])] {
+        picture.push(name, 2, 1, data.to_vec()).unwrap();
+    }
+    let file = std::fs::File::create(folder.join("t.png")).unwrap();
+    write_png_values(&picture, file).unwrap();
+    let texture = r#""baseColorTexture":{"index":0},"baseColorFactor""#;
+    let json = GLB.replace("{\"byteLength\":44}", "{\"uri\":\"t.bin\",\"byteLength\":44}");
+    let json = json.replace("\"NORMAL\":0", "\"TEXCOORD_0\":2").replace(
+        "\"bufferViews\"",
+        r#""textures":[{"source":0}],"images":[{"uri":"t.png"}],"bufferViews""#,
+    );
+    let json = json.replace("\"baseColorFactor\"", texture).replace(
+        "\"type\":\"SCALAR\"}",
+        r#""type":"SCALAR"},{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}"#,
+    );
+    std::fs::write(folder.join("t.gltf"), json).unwrap();
+    let scene = Scene::load(folder.join("t.gltf")).unwrap();
+    let mesh = &scene.meshes[0];
+    assert_eq!(mesh.positions, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // The first six of the file's numbers.
+    assert_eq!(mesh.uvs, [[0.0, 0.0], [0.0, 1.0], [0.0, 0.0]]);
+    let texture = mesh.material.texture.as_ref().unwrap();
+    assert_eq!((texture.width, texture.height), (2, 1));
+    assert_eq!(texture.data, [[255, 0, 0, 255], [0, 255, 255, 255]]);
 }
 
 /// A node that lists itself a million times is refused before the list is multiplied.
