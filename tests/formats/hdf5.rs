@@ -75,6 +75,7 @@ fn steps_are_frames() {
         assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     }
     let found = times("steps.h5part");
+    assert_eq!(found.len(), 4);
     assert!(found.iter().zip([0.0, 0.1, 0.2, 1.0]).all(|(a, b)| (a.unwrap() - b).abs() < 1e-12));
     for (i, step) in [0.0, 1.0, 2.0, 10.0].into_iter().enumerate() {
         samples::check("h5part", &moved(frame("steps.h5part", i), step), Has::All);
@@ -94,10 +95,11 @@ fn steps_are_frames() {
     for (i, by) in [0.0, 0.5].into_iter().enumerate() {
         let found = moved(frame("numbered.h5", i), by);
         assert_eq!(found.positions.len(), samples::COUNT);
-        let off = |a: &[f32; 3], b: &[f32; 3]| (a[0] - b[0]).abs();
         let cloud = samples::cloud();
-        let mut pairs = found.positions.iter().zip(&cloud.positions).map(|(a, b)| off(a, b));
-        assert!(pairs.all(|off| off < 1.0e-6), "{i}");
+        let pairs = found.positions.iter().flatten().zip(cloud.positions.iter().flatten());
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1.0e-6), "{i}");
+        assert_eq!(found.ids, cloud.ids, "{i}");
+        assert_eq!(found.velocities, cloud.velocities, "{i}");
         assert!(found.warnings[0].contains("are not read: /0000/walls, /0005/walls"));
     }
     // Without a frame number, a file with several frames is not read.

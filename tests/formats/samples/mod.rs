@@ -80,6 +80,7 @@ pub fn check(name: &str, particles: &Particles, has: Has) {
         Has::Positions => {
             assert_eq!(particles.velocities, None, "{name}: velocities");
             assert_eq!(particles.ids, None, "{name}: ids");
+            assert_eq!(particles.densities, None, "{name}: densities");
         }
         Has::All => {
             assert_eq!(particles.velocities, cloud.velocities, "{name}: velocities");
@@ -87,6 +88,8 @@ pub fn check(name: &str, particles: &Particles, has: Has) {
             assert_eq!(particles.ids, cloud.ids, "{name}: ids");
         }
     }
+    assert_eq!(particles.kinds, None, "{name}: kinds");
+    assert_eq!(particles.lifetimes, None, "{name}: lifetimes");
     assert!(!particles.attributes.is_empty(), "{name}: attributes");
 }
 
