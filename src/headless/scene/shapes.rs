@@ -200,13 +200,22 @@ mod tests {
         ] {
             assert_eq!(mesh.positions.len(), mesh.normals.len());
             assert_eq!(mesh.positions.len(), mesh.uvs.len());
+            let (mut volume, mut up) = (0.0, true);
             for t in mesh.indices.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| Vec3::from(mesh.positions[t[k] as usize]));
                 let face = (b - a).cross(c - a);
                 let normal = Vec3::from(mesh.normals[t[0] as usize]);
                 // The triangles at a sphere's poles have no area.
                 assert!(face.length() < 1e-6 || face.dot(normal) > 0.0, "{}", mesh.name);
+                volume += a.dot(b.cross(c)) / 6.0;
+                up &= normal.y > 0.99;
             }
+            // A closed mesh that faces inward has a negative volume.
+            assert!(
+                if mesh.name == "plane" { up } else { volume > 0.0 },
+                "{}: {volume}",
+                mesh.name
+            );
         }
     }
 }

@@ -154,6 +154,7 @@ fn the_bounds_of_operations_hold_and_are_not_idle() {
         for (worst, (found, expected)) in worst.iter_mut().zip(cases) {
             let off = (f64::from(found) - expected.value).abs();
             assert!(expected.error.is_finite());
+            assert!(off.is_finite());
             *worst = worst.max(if off == 0.0 { 0.0 } else { off / expected.error });
         }
     }
@@ -254,6 +255,7 @@ fn a_filter_of_single_precision_is_within_the_bounds() {
         for c in 0..2 {
             let off = (f64::from(found[c]) - expected[c].value).abs();
             assert!(off <= expected[c].error, "{off:e} {:?}", expected[c]);
+            assert!(off.is_finite());
             worst = worst.max(off / expected[c].error);
             mean += expected[c].error / 40_000.0;
         }
@@ -303,6 +305,7 @@ fn the_water_s_points_and_pixels_are_as_the_view_has_them() {
         let pairs = [(depth, point.depth), (place[0], point.place[0]), (width, point.width)];
         for (worst, (found, expected)) in worst.iter_mut().zip(pairs) {
             let off = (f64::from(found) - expected.value).abs();
+            assert!(off.is_finite());
             *worst = worst.max(off / expected.error);
         }
     }
@@ -611,6 +614,7 @@ fn shoreline_foam_of_single_precision_is_within_the_bounds() {
         ];
         for (worst, (found, expected)) in worst.iter_mut().zip(pairs) {
             let off = (f64::from(found) - expected.value).abs();
+            assert!(off.is_finite());
             *worst = worst.max(if off == 0.0 { 0.0 } else { off / expected.error });
         }
         let part = covers_bounds.value;
@@ -760,6 +764,7 @@ fn a_map_in_single_precision_is_within_the_bounds() {
             let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
             let expected = heights.apart(at, seed);
             let off = (f64::from(single::apart(&heights, x, y, seed)) - expected.value).abs();
+            assert!(off.is_finite());
             worst = worst.max(off / expected.error);
             bound = bound.max(expected.error);
         }

@@ -239,14 +239,19 @@ mod tests {
         let patch = Patch { low: Vec2::splat(-3.0), high: Vec2::splat(3.0), cell: 0.5 };
         let hill = field(patch, -9.0, Material::default(), |p| (-p.length_squared()).exp());
         let block = block(Vec3::ZERO, vec3(1.0, 2.0, 3.0), 0.7, Material::default());
-        for mesh in [ball, torus, hill, block] {
+        for (mesh, closed) in [(ball, true), (torus, true), (hill, false), (block, true)] {
+            let (mut volume, mut up) = (0.0, true);
             assert_eq!(mesh.positions.len(), mesh.normals.len());
             for t in mesh.indices.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| Vec3::from(mesh.positions[t[k] as usize]));
                 let face = (b - a).cross(c - a);
                 let normal = Vec3::from(mesh.normals[t[0] as usize]);
                 assert!(face.dot(normal) > 0.0, "{}: {face} {normal}", mesh.name);
+                volume += a.dot(b.cross(c)) / 6.0;
+                up &= face.y > 0.0;
             }
+            // A closed mesh that faces inward has a negative volume.
+            assert!(if closed { volume > 0.0 } else { up }, "{}: {volume}", mesh.name);
         }
     }
 
