@@ -173,8 +173,10 @@ mod tests {
             let spread = (angles.iter().map(|a| (a - mean).powi(2)).sum::<f64>()
                 / angles.len() as f64)
                 .sqrt();
-            println!("{count}: {} pairs, {mean:.1} degrees, spread {spread:.1}", angles.len());
-            assert!((mean - 60.0).abs() < 8.0, "{count} bubbles: {mean} degrees in the mean");
+            let error = angles.iter().map(|a| (a - 60.0).abs()).sum::<f64>() / angles.len() as f64;
+            println!("{count}: {mean:.1} degrees, spread {spread:.1}, mean error {error:.2}");
+            // docs/bubble-foam.md gives this number.
+            assert!(error < 6.0, "{count} bubbles: a mean error of {error} degrees");
             assert!(spread < 20.0, "{count} bubbles: {spread} degrees of spread");
         }
     }
