@@ -726,6 +726,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn units_have_their_metres() {
+        let all = [Unit::Mm, Unit::Cm, Unit::M, Unit::Km].map(|unit| (unit.name(), unit.metres()));
+        assert_eq!(all, [("mm", 0.001), ("cm", 0.01), ("m", 1.0), ("km", 1000.0)]);
+    }
+
+    #[test]
     fn the_command_line_is_sound() {
         use clap::CommandFactory;
         Cli::command().debug_assert();

@@ -289,6 +289,35 @@ mod tests {
         assert!(sun.x > 0.8 && sun.y > 0.4 && irradiance.x > 0.0, "{sun}");
     }
 
+    /// A uniform grey PNG of 0.5 is light of 0.2140 (IEC 61966-2-1), whose irradiance is pi times that.
+    #[test]
+    fn a_png_is_decoded_and_misfits_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, width: usize, channel: &str| {
+            let path = folder.path().join(name);
+            let mut layers = picture::Layers::new(width, 32);
+            layers.push(channel, width, 32, vec![0.5; 32 * width]).unwrap();
+            let file = std::fs::File::create(&path).unwrap();
+            if name.ends_with(".png") {
+                picture::write_png_values(&layers, file).unwrap();
+            } else {
+                picture::write_exr(&layers, file).unwrap();
+            }
+            Environment::read(&path, None)
+        };
+        let found = write("sky.png", 64, "Y").ok().unwrap().sky_irradiance;
+        let expected = PI * 0.214_041;
+        assert!((found - expected).abs().max_element() < 0.02 * expected, "{found}");
+        for (name, width, channel, says) in [
+            ("square.png", 32, "Y", "twice as wide as high, found 32x32"),
+            ("depth.exr", 64, "Z", "expected channels R, G and B"),
+        ] {
+            let failure = write(name, width, channel).err().unwrap();
+            assert!(failure.message.contains(says), "{}", failure.message);
+            assert_eq!(failure.kind, crate::failure::Kind::Input);
+        }
+    }
+
     #[test]
     fn the_sky_is_blue_above_and_lit() {
         let sky = Environment::sky(None).unwrap();

@@ -303,12 +303,16 @@ pub fn matte(
     };
     let white = [0, 1, 2].map(|c| merged(&color.map(|v| v[c]), layers.width, Merge::Mean).data);
     let Some(black) = layers.rgb() else { return Ok(()) };
-    let through = |i: usize| (0..3).map(|c| white[c][i] - black[i][c]).sum::<f32>() / 3.0;
-    let hidden: Vec<f32> = (0..black.len()).map(|i| (1.0 - through(i)).clamp(0.0, 1.0)).collect();
     if let Some(alpha) = layers.channels.iter_mut().find(|channel| channel.name == "A") {
-        alpha.data = hidden;
+        alpha.data = hidden(&black, &white);
     }
     Ok(())
+}
+
+/// Opacity of each pixel, from its colours over black and over white.
+fn hidden(black: &[[f32; 3]], white: &[Vec<f32>; 3]) -> Vec<f32> {
+    let through = |i: usize| (0..3).map(|c| white[c][i] - black[i][c]).sum::<f32>() / 3.0;
+    (0..black.len()).map(|i| (1.0 - through(i)).clamp(0.0, 1.0)).collect()
 }
 
 #[cfg(test)]
@@ -326,6 +330,15 @@ mod tests {
         // A smaller picture stays as it is.
         assert_eq!(merged(&picture, 4, Merge::Mean), picture);
         assert_eq!(merged(&picture, 9, Merge::Mean), picture);
+    }
+
+    /// Clear, black, and blue water that lets 0.1 of red, 0.5 of green and 0.9 of blue through.
+    #[test]
+    fn opacity_is_the_mean_of_what_is_hidden() {
+        let black = [[0.0; 3], [0.0; 3], [0.1, 0.2, 0.05]];
+        let white = [vec![1.0, 0.0, 0.2], vec![1.0, 0.0, 0.7], vec![1.0, 0.0, 0.95]];
+        let found = hidden(&black, &white);
+        assert!(found[0] == 0.0 && found[1] == 1.0 && (found[2] - 0.5).abs() < 1.0e-6, "{found:?}");
     }
 
     #[test]

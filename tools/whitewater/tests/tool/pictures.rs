@@ -200,6 +200,17 @@ fn single_pngs_are_photographs() {
     let usual = png("render a_1.vtu -o o.png");
     let sharp = png("render a_1.vtu -o o.png --shutter 0 --aperture 0");
     assert!(usual != sharp && sharp == png("render a_1.vtu -o o.png --samples 1"));
+    // A lens of 0.0015 of the distance to the target, and eight samples.
+    let default = "--shutter 1/200 --aperture 0.003525 --samples 8";
+    let said = png(&format!("render a_1.vtu -o o.png {default}"));
+    // The lens is rounded in another place, which changes few pixels by a step.
+    let steps = |a: &[[f32; 3]], b: &[[f32; 3]]| {
+        let pairs = a.iter().flatten().zip(b.iter().flatten());
+        pairs.map(|(a, b)| (255.0 * (a - b)).abs().round()).sum::<f32>()
+    };
+    let wide = png(&format!("render a_1.vtu -o o.png {}", default.replace("0.0035", "0.0070")));
+    let [said, wide] = [said, wide].map(|other| steps(&usual, &other));
+    assert!(said < 20.0 && wide > 200.0, "{said} {wide}");
     assert!(usual == png("render a_1.vtu -o o.png --shutter 1/200"));
     assert!(sharp == png("render a_1.vtu -o o.png -o o.exr"));
     // Frames of a sequence are not.
@@ -211,6 +222,20 @@ fn single_pngs_are_photographs() {
     };
     assert!(first("") == first("--samples 1"));
     assert!(first("") != first("--shutter 1/200"));
+}
+
+/// Pictures are drawn at twice the size unless something else is said.
+#[test]
+fn pictures_are_supersampled_twice() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(6));
+    for (name, more) in [("usual", ""), ("two", "--supersample 2"), ("one", "--supersample 1")] {
+        folder
+            .run(&format!("render a.ply -o {name}.exr {SMALL} {FRONT} --layers none {more}"))
+            .ok();
+    }
+    folder.run("compare usual.exr two.exr --tolerance 0").ok();
+    folder.run("compare usual.exr one.exr --tolerance 0").fails(1, &["RMSE"]);
 }
 
 /// Each debug view adds its layer, within the water only. Without foam all water is in front of it.
@@ -271,15 +296,53 @@ fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
 fn odd_and_tiny_sizes_and_levels_are_drawn() {
     let folder = Folder::new();
     folder.particles("a.ply", block(4));
-    for (size, more) in [
-        ("1x1", "--scene ground --smoothing-level 2 --splat compute --rule source"),
-        ("3x1", "--scene ground --smoothing-level 0 --splat raster --rule fixed:20"),
-        ("33x65", "--thickness-level 0"),
+    for (size, more, config) in [
+        (
+            "1x1",
+            "--scene ground --smoothing-level 2 --splat compute --rule source --shadows scene",
+            &[
+                "smoothing_level: 2",
+                "depth_splat: Some(Compute)",
+                "thickness_splat: Some(Compute)",
+                "rule: Source",
+                "shadow: Some(",
+                "light_map_size: None",
+            ][..],
+        ),
+        (
+            "3x1",
+            "--scene ground --smoothing-level 0 --splat raster --rule fixed:20 --shadows none",
+            &[
+                "smoothing_level: 0",
+                "depth_splat: Some(Raster)",
+                "thickness_splat: Some(Raster)",
+                "rule: Fixed(20)",
+                "shadow: None",
+                "light_map_size: None",
+            ],
+        ),
+        // A picture of 600 columns, drawn at twice the size, has a map of 600 texels, in steps of 16.
+        (
+            "600x2",
+            "--thickness-level 0 --set none",
+            &[
+                "thickness_level: 0",
+                "depth_splat: None",
+                "rule: ConstantWidth",
+                "shadow: Some(",
+                "light_map_size: Some(608)",
+            ],
+        ),
+        ("33x65", "--thickness-level 2", &["thickness_level: 2"]),
     ] {
         folder.run(&format!("render a.ply -o a.exr -o a.png --size {size} {more} --validate")).ok();
         let (exr, png) = (folder.picture("a.exr"), folder.picture("a.png"));
         assert_eq!(format!("{}x{}", exr.width, exr.height), size);
         assert_eq!(format!("{}x{}", png.width, png.height), size);
+        let (_, found) = exr.attributes.iter().find(|(name, _)| name == "config").unwrap();
+        for part in config {
+            assert!(found.contains(part), "{part}: {found}");
+        }
     }
 }
 
@@ -302,7 +365,7 @@ fn particles_that_are_no_numbers_change_nothing() {
     folder.particles("dirty.ply", positions);
     folder.run(&format!("render clean.ply -o clean.exr {SMALL} {FRONT}")).ok();
     let run = folder.run(&format!("render dirty.ply -o dirty.exr {SMALL} {FRONT}")).ok();
-    assert!(run.stderr().contains('3'), "{}", run.stderr());
+    assert!(run.stderr().contains("3 of 219 positions are not finite"), "{}", run.stderr());
     folder.run("compare clean.exr dirty.exr").ok();
 }
 
@@ -378,6 +441,11 @@ fn settings_and_environment_change_the_picture() {
     assert!((sky[2] - 1.0).abs() < 0.01 && (sky[0] - 0.1).abs() < 0.01, "{sky:?}");
 }
 
+/// Linear light of a value of sRGB (IEC 61966-2-1).
+fn decode(v: f32) -> f32 {
+    if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+}
+
 /// Tone curves change the PNG, but not the EXR. Stops add to the exposure that was found.
 #[test]
 fn light_is_shown_as_asked() {
@@ -392,6 +460,7 @@ fn light_is_shown_as_asked() {
         ("none", ""),
         ("dark", "--exposure -1"),
         ("linear", "--tone linear"),
+        ("half", "--tone linear --exposure -1"),
         ("neutral", "--tone neutral"),
         ("agx", "--tone agx"),
     ] {
@@ -402,6 +471,29 @@ fn light_is_shown_as_asked() {
     let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
     assert!(file("auto.png") == file("none.png"));
     assert!(mean("dark.png") < 0.85 * mean("auto.png"));
+    // Without a tone curve a stop halves the light, and undarkened colours are those of the EXR times one factor.
+    let light = |name: &str| folder.picture(name).rgb().unwrap().into_iter().map(|c| c.map(decode));
+    let (exr, step) = (folder.picture("linear.exr"), 1.0 / 255.0);
+    let (rgb, alpha) = (exr.rgb().unwrap(), exr.channel("A").unwrap());
+    let mut factors = Vec::new();
+    for (i, (full, half)) in light("linear.png").zip(light("half.png")).enumerate() {
+        for (c, (full, half)) in full.into_iter().zip(half).enumerate() {
+            // Dither moves a code by up to a step; the curve's slope gives the step in light.
+            let slope = |v: f32| 2.4 / 1.055 * v.max(0.05).powf(1.4 / 2.4);
+            let close = 1.01 * step * (0.5 * slope(full) + slope(half));
+            if full < 0.98 && alpha[i] > 0.0 {
+                assert!((half - 0.5 * full).abs() < close, "{i}: {half} of {full}");
+            }
+            if (0.1..0.98).contains(&full) && alpha[i] > 0.1 {
+                factors.push(full * alpha[i] / rgb[i][c]);
+            }
+        }
+    }
+    assert!(factors.len() > 300, "{}", factors.len());
+    // In light above 0.1 a step is at most 2.3 %, here of both pixels.
+    let middle = factors[factors.len() / 2];
+    let off = factors.iter().find(|factor| (*factor / middle - 1.0).abs() > 0.047);
+    assert!(off.is_none(), "{off:?} and {middle}");
     for (i, a) in ["auto.png", "linear.png", "neutral.png", "agx.png"].iter().enumerate() {
         for b in ["linear.png", "neutral.png", "agx.png"].iter().skip(i) {
             assert!(file(a) != file(b), "{a} {b}");
@@ -411,7 +503,7 @@ fn light_is_shown_as_asked() {
     folder.run("render a.ply -o b.png --exposure bright").fails_at_once();
 }
 
-/// The water alone, premultiplied for compositing: over white it gives what the water looks like in front of white.
+/// The water alone has colours before black, and an opacity that grows with what the water hides.
 #[test]
 fn water_alone_has_the_share_that_it_hides() {
     let folder = Folder::new();
@@ -466,16 +558,27 @@ fn small_scenes_are_clear() {
     folder.particles("large.ply", large);
     folder.text("pool.toml", "[water]\nmedium = 'pool'\n");
     let absorption = |name: &str, more: &str| {
-        let command = format!("render {name}.ply -o {name}.exr {SMALL} --radius 0.05 {more}");
-        folder.run(&command).ok();
+        let mut look = format!("{SMALL} {more}");
+        // Only one set can be named.
+        if more.contains("--set pool") {
+            look = look.replace("--set none", "");
+        }
+        folder.run(&format!("render {name}.ply -o {name}.exr {look}")).ok();
         let picture = folder.picture(&format!("{name}.exr"));
         let (_, text) = picture.attributes.iter().find(|(key, _)| key == "settings").unwrap();
         let table = text.parse::<toml::Table>().unwrap();
         table["water"]["medium"]["absorption"][0].as_float().unwrap() as f32
     };
-    assert_eq!(absorption("small", ""), 0.264);
-    assert_eq!(absorption("large", ""), 1.1);
-    assert_eq!(absorption("small", "--settings pool.toml"), 1.1);
+    assert_eq!(absorption("small", "--radius 0.05"), 0.264);
+    assert_eq!(absorption("large", "--radius 0.05"), 1.1);
+    assert_eq!(absorption("small", "--settings pool.toml --radius 0.05"), 1.1);
+    // In the set 'pool' a part of the blue is the tiles'.
+    let near = |found: f32, expected: f32| (found / expected - 1.0).abs() < 1.0e-5;
+    let found = absorption("large", "--set pool --radius 0.05");
+    assert!(near(found, 0.45 * 1.1), "{found}");
+    // A pool of 24 times 0.5 metres, 10 metres of which are as deep a blue.
+    let found = absorption("large", "--scale 5 --radius 0.25");
+    assert!(near(found, 1.1 * 10.0 / 12.0), "{found}");
 }
 
 /// The colour of a block of each liquid, under a uniform grey sky, fits its name.
