@@ -1,12 +1,22 @@
 //! Shoreline and contact foam.
 
-use whitewater::io::picture::{Layers, write_png_values};
+use whitewater::io::picture::{EMPTY, Layers, write_png_values};
 
 use super::support::{FRONT, Folder, SIZE, block};
 
 /// A hill in the sea.
 const HILL: &str =
     r#"{"spheres":[{"name":"hill","material":"sand","centre":[0,-3,0],"radius":5}]}"#;
+
+/// Distance from the y axis at which a pixel of 96x64 sees a level, from 0,14,4 towards the origin at 50 degrees.
+fn radius(pixel: usize, level: f32) -> f32 {
+    let scale = 25.0_f32.to_radians().tan() / 32.0;
+    let [across, up] = [(pixel % 96) as f32 - 47.5, 31.5 - (pixel / 96) as f32].map(|v| v * scale);
+    let long = 14.0_f32.hypot(4.0);
+    let [y, z] = [(-14.0 + 4.0 * up) / long, (-4.0 - 14.0 * up) / long];
+    let way = (level - 14.0) / y;
+    if way < 0.0 { f32::INFINITY } else { (across * way).hypot(4.0 + z * way) }
+}
 
 #[test]
 fn foam_goes_round_a_hill_of_ones_own() {
@@ -21,13 +31,27 @@ fn foam_goes_round_a_hill_of_ones_own() {
     folder.run(&format!("{common} --validate -o map.exr")).ok();
     let picture = folder.picture("map.exr");
     let foam = picture.channel("shore.amount").unwrap();
-    // The shore is a circle of radius 4 about the middle of the picture: samples on it, out at sea, inland.
-    let amount = |rows: std::ops::Range<usize>| {
-        let all = rows.clone().map(|y| foam[96 * y + 48]).sum::<f32>();
-        all / rows.len() as f32
-    };
+    // The shore is a circle of radius 4; foam reaches 3 out to sea. The hill is seen before the level behind it.
     assert!(foam.iter().any(|v| *v > 0.9), "no foam");
-    assert_eq!(amount(30..34), 0.0, "on the land");
+    let amounts = |range: std::ops::Range<f32>| -> Vec<f32> {
+        let inside = |i: &usize| range.contains(&radius(*i, 0.0));
+        (0..foam.len()).filter(inside).map(|i| foam[i]).collect()
+    };
+    let (land, shore, sea) = (amounts(0.0..1.5), amounts(4.0..5.5), amounts(7.3..99.0));
+    assert!(land.len() > 50 && land.iter().all(|v| *v == 0.0), "on the land");
+    assert!(sea.len() > 500 && sea.iter().all(|v| *v == 0.0), "far out");
+    let mean = shore.iter().sum::<f32>() / shore.len() as f32;
+    assert!(mean > 0.05, "{mean} by the shore");
+    // A metre higher the circle has a radius of 3. The mean radius falls by as much, a little less where the outer foam
+    // is weighted by its area.
+    folder.run(&format!("{common} --level 1 -o high.exr")).ok();
+    let high = folder.picture("high.exr");
+    let middle = |foam: &[f32], level: f32| {
+        let weighted = foam.iter().enumerate().map(|(i, v)| v * radius(i, level)).sum::<f32>();
+        weighted / foam.iter().sum::<f32>()
+    };
+    let falls = middle(foam, 0.0) - middle(high.channel("shore.amount").unwrap(), 1.0);
+    assert!((0.8..1.2).contains(&falls), "{falls}");
     assert!(picture.channel("contact.amount").unwrap().iter().all(|v| *v == 0.0));
     // Half a second later the foam has moved, which the colour shows.
     folder.run(&format!("{common} --frames 13 -o later.exr")).ok();
@@ -112,6 +136,14 @@ fn a_web_of_ones_own() {
     draw("own.exr", "web = \"web.png\"\n");
     draw("built.exr", "");
     folder.run("compare own.exr built.exr").fails(1, &[]);
+    let amount =
+        |name: &str| folder.picture(name).channel("shore.amount").unwrap().iter().sum::<f32>();
+    let [own, built] = ["own.exr", "built.exr"].map(amount);
+    assert!((own / built - 1.0).abs() < 0.3, "as much foam: {own} {built}");
+    // The built-in web as a picture gives the same foam.
+    folder.run("pattern web:1 -o web.png --size 512").ok();
+    draw("same.exr", "web = \"web.png\"\n");
+    folder.run("compare same.exr built.exr --tolerance 1e-3").ok();
     folder.text("s.toml", "[shore]\nweb = \"gone.png\"\n");
     let gone = format!("render --shore hill.json {view} {SIZE} --settings s.toml -o n.png");
     folder.run(&gone).fails(3, &["gone.png"]);
@@ -163,6 +195,11 @@ fn contact_foam_on_particles() {
     let bad = foam.iter().zip(a.iter().zip(b)).filter(|(f, (a, b))| **f == 0.0 && a != b).count();
     // Refracted rays do not see it, because it lies on the water.
     assert_eq!(bad, 0, "pixels without foam are as they were");
+    // The ball's rim lies in the middle of the water.
+    let water = on.channel("water.depth.Z").unwrap();
+    let wet: Vec<usize> = (0..foam.len()).filter(|i| water[*i] < EMPTY).collect();
+    let bare = wet.iter().filter(|i| foam[**i] == 0.0).count();
+    assert!(2 * bare > wet.len(), "{bare} of {} without foam", wet.len());
     let both = folder.run(&format!("render a.ply --shore pool {FRONT} -o n.png"));
     assert_eq!(both.0.status.code(), Some(2), "either particles or a scene with a sea");
 }
@@ -182,6 +219,12 @@ fn built_in_scenes_are_drawn() {
     folder.run(&format!("{islands} --frames 1-81 --every 80 -o a_%d.exr")).ok();
     folder.run(&format!("{islands} --frames 81 -o b.exr")).ok();
     folder.run("compare a_81.exr b.exr").ok();
+    let [before, after] = ["a_1.exr", "a_81.exr"].map(|name| folder.picture(name));
+    for name in ["scene.Z", "shore.amount"] {
+        let [a, b] = [&before, &after].map(|picture| picture.channel(name).unwrap());
+        let changed = a.iter().zip(b).filter(|(a, b)| (*a - *b).abs() > 0.1).count();
+        assert!(changed > 20, "{name}: {changed} pixels");
+    }
     // The scene repeats after 240 frames.
     folder.run(&format!("{islands} --frames 321 -o c.exr")).ok();
     folder.run("compare b.exr c.exr --tolerance 1e-3").ok();
