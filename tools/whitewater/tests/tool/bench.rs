@@ -99,8 +99,10 @@ fn bubble_foam_is_timed() {
         (format!("{command} --sea wave"), "--sea"),
         ("bench --bubbles box:0".into(), "1 to 1000000"),
     ] {
-        let text = folder.run(&bad).stderr();
+        let run = folder.run(&bad);
+        let text = run.stderr();
         assert!(text.contains("--bubbles") && text.contains(part), "{text}");
+        run.fails_at_once();
     }
 }
 

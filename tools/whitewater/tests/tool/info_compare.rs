@@ -209,7 +209,7 @@ fn info_lists_files_of_matlab() {
     }
     let text = folder.run("info new").ok().stdout();
     assert!(text.contains("2 frames, 1 to 2"), "{text}");
-    let run = folder.run("info old");
+    let run = folder.run("info old").fails(3, &["2 of 2 files", "w_1.mat", "w_2.mat"]);
     assert!(run.stderr().contains("scipy.io.loadmat('FILE')"), "{}", run.stderr());
 }
 

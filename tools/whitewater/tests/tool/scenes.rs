@@ -1,5 +1,7 @@
 //! Scenes: simulated ones, moving parts, and a moving camera.
 
+use whitewater::io::particles::read;
+
 use super::support::{Folder, SIZE, block, names};
 
 #[test]
@@ -15,6 +17,35 @@ fn what_is_simulated_can_be_drawn() {
     let view = "--scene c/scene.json --camera c/camera.json --supersample 1";
     folder.run(&format!("render c/corridor_*.bgeo -o p_%d.png {view} {SIZE}")).ok();
     assert!(folder.exists("p_7.png") && folder.exists("p_8.png"));
+}
+
+/// A frame's positions follow its velocities at the rate that is asked for, and the seed moves the particles.
+#[test]
+fn simulations_have_a_rate_and_a_seed() {
+    let folder = Folder::new();
+    let run = |out: &str, more: &str| {
+        let common = "simulate corridor --spacing 0.1 --frames 0-8 --keep 7-8";
+        folder.run(&format!("{common} --out {out} {more}")).ok();
+        [7, 8].map(|frame| read(&folder.path(&format!("{out}/corridor_000{frame}.bgeo"))).unwrap())
+    };
+    for fps in [30.0_f32, 60.0] {
+        let [before, after] = run("r", &format!("--fps {fps}"));
+        let (ids, velocities) = (before.ids.unwrap(), before.velocities.unwrap());
+        let at: std::collections::HashMap<u32, usize> =
+            ids.into_iter().enumerate().map(|(i, id)| (id, i)).collect();
+        let (mut off, mut way) = (0.0, 0.0);
+        for (id, now) in after.ids.unwrap().iter().zip(&after.positions) {
+            let Some(i) = at.get(id) else { continue };
+            for c in 0..3 {
+                let (moved, said) = (now[c] - before.positions[*i][c], velocities[*i][c] / fps);
+                off += (moved - said).abs();
+                way += said.abs();
+            }
+        }
+        assert!(way > 0.0 && off < 0.3 * way, "{fps}: {off} of {way}");
+    }
+    let positions = |seed: u32| run("s", &format!("--seed {seed}"))[1].positions.clone();
+    assert!(positions(1) == positions(1) && positions(1) != positions(2));
 }
 
 /// The JSON scene in the help is one.
