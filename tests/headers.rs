@@ -1,5 +1,5 @@
-//! The first comment of each shader names its pass, what it reads and what it writes. That of each include describes it
-//! and names the includes that it needs. Steps between two numbers rise.
+//! The first comment of each shader names its pass, what it reads and what it writes. Each include has a comment; one
+//! that binds resources names what it reads. Steps between two numbers rise.
 
 use std::path::{Path, PathBuf};
 

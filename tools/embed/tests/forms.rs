@@ -1,5 +1,5 @@
-//! The host's frame in every configuration, on a device with no optional features: each gives the same picture without
-//! validation messages, and a configuration that needs more gives an error.
+//! The host's frame in every configuration, with every optional feature that the device offers: each gives the same
+//! picture without validation messages, and a configuration that needs more gives an error.
 
 #[allow(dead_code)] // its `main`
 #[path = "../src/main.rs"]
