@@ -471,29 +471,22 @@ fn light_is_shown_as_asked() {
     let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
     assert!(file("auto.png") == file("none.png"));
     assert!(mean("dark.png") < 0.85 * mean("auto.png"));
-    // Without a tone curve a stop halves the light, and undarkened colours are those of the EXR times one factor.
+    // Without a tone curve a stop halves the light.
     let light = |name: &str| folder.picture(name).rgb().unwrap().into_iter().map(|c| c.map(decode));
-    let (exr, step) = (folder.picture("linear.exr"), 1.0 / 255.0);
-    let (rgb, alpha) = (exr.rgb().unwrap(), exr.channel("A").unwrap());
-    let mut factors = Vec::new();
+    let alpha = folder.picture("linear.png").channel("A").unwrap().to_vec();
+    let mut seen = 0;
     for (i, (full, half)) in light("linear.png").zip(light("half.png")).enumerate() {
-        for (c, (full, half)) in full.into_iter().zip(half).enumerate() {
+        for (full, half) in full.into_iter().zip(half) {
             // Dither moves a code by up to a step; the curve's slope gives the step in light.
             let slope = |v: f32| 2.4 / 1.055 * v.max(0.05).powf(1.4 / 2.4);
-            let close = 1.01 * step * (0.5 * slope(full) + slope(half));
+            let close = 1.01 / 255.0 * (0.5 * slope(full) + slope(half));
             if full < 0.98 && alpha[i] > 0.0 {
+                seen += 1;
                 assert!((half - 0.5 * full).abs() < close, "{i}: {half} of {full}");
-            }
-            if (0.1..0.98).contains(&full) && alpha[i] > 0.1 {
-                factors.push(full * alpha[i] / rgb[i][c]);
             }
         }
     }
-    assert!(factors.len() > 300, "{}", factors.len());
-    // In light above 0.1 a step is at most 2.3 %, here of both pixels.
-    let middle = factors[factors.len() / 2];
-    let off = factors.iter().find(|factor| (*factor / middle - 1.0).abs() > 0.047);
-    assert!(off.is_none(), "{off:?} and {middle}");
+    assert!(seen > 300, "{seen}");
     for (i, a) in ["auto.png", "linear.png", "neutral.png", "agx.png"].iter().enumerate() {
         for b in ["linear.png", "neutral.png", "agx.png"].iter().skip(i) {
             assert!(file(a) != file(b), "{a} {b}");
