@@ -1,5 +1,6 @@
-//! Bytes behind the beginning that makes a file this format. What is random has no tree of groups, so give it the
-//! samples as a second corpus, which it only reads: `cargo +nightly fuzz run hdf5 fuzz/corpus/hdf5 tests/formats/hdf5`.
+//! HDF5 files: the input as it is, with its length mended, and behind the format's signature. Random bytes contain no
+//! groups, so start from the samples. libFuzzer writes new inputs to the first folder and only reads the second:
+//! `cargo +nightly fuzz run hdf5 fuzz/corpus/hdf5 tests/formats/hdf5`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

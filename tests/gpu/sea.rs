@@ -313,13 +313,15 @@ fn lava_flows_with_its_speed() {
     let first = at(0.0, [0.0, 0.0]);
     // In two seconds it goes one metre.
     let [along, still] = [[-0.6, 0.8], [0.0, 0.0]].map(|eye| at(2.0, eye));
-    let apart = |other: &[[f32; 4]]| {
-        first.iter().zip(other).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f32>() / first.len() as f32
-    };
-    let (moved, off) = (apart(&still), apart(&along));
+    let (moved, off) = (apart(&first, &still), apart(&first, &along));
     println!("{moved} from the same place, {off} from one that moves alike");
     assert!(moved > 0.1 && off < 0.01 * moved, "{moved}, {off}");
     finish(headless);
+}
+
+/// Mean difference of two pictures in red.
+fn apart(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f32>() / a.len() as f32
 }
 
 /// Lava with a period looks the same a period later, and not in between. It moves on without a jump
@@ -334,9 +336,6 @@ fn lava_repeats_after_its_period() {
     let [first, between, later] = [1.0, 3.0, 5.0].map(&mut at);
     assert_eq!(first, later, "a period later");
     let [ends, begins] = [4.0 - 1.0e-3, 4.0 + 1.0e-3].map(&mut at);
-    let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
-        a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs()).sum::<f32>() / a.len() as f32
-    };
     let (moved, jump) = (apart(&first, &between), apart(&ends, &begins));
     println!("{moved} in half a period, {jump} at its end");
     // The end takes a thousandth of that time.

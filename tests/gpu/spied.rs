@@ -52,15 +52,10 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     let theirs = rig.config.bubbles.filter(|bubbles| !bubbles.crossfade);
     let blobs = theirs.map(|_| rig.blobs(shot));
     let points = scenes::world(&shot.camera, &scenes::cloud(7, 40, 1.0, 9.0));
-    let foam = rig.config.whitewater.map(|_| {
-        rig.whitewater(&Whitewater {
-            positions: &points,
-            kinds: None,
-            radii: None,
-            ages: None,
-            ids: None,
-        })
-    });
+    let foam = rig
+        .config
+        .whitewater
+        .map(|_| rig.whitewater(&Whitewater { positions: &points, ..Default::default() }));
     let frame = shot.frame(color.host_image(), depth.host_image(), particles).with(|it| {
         it.bubbles = blobs.as_ref().map(Foamed::streams);
         it.whitewater = foam.as_ref().map(WhitewaterCloud::particles);

@@ -46,10 +46,10 @@ fn no_more_comes_back_than_there_was() {
     }
 }
 
-/// Error of one value of the table: sums of terms of at most 1, with about thirty roundings each
-/// (the phase is up to 2 · 1.4 · 2000 / 380 = 14.7 turns, a rounding of which is 14.7 · 2π u = 93 u,
-/// and it has four); weights by exponentials, 3 + 2x ulp, with x at most 40 where a weight matters;
-/// and one step of half precision.
+/// Error of one value of the table. The terms of its sums are at most 1 and have about thirty
+/// roundings. Their phase is up to 2 · 1.4 · 2000 / 380 = 14.7 turns and has four roundings, of
+/// 14.7 · 2π u = 93 u each. Their weights are exponentials with an error of 3 + 2x ulp, where x is at
+/// most 40 if the weight matters. The value is stored in half precision.
 pub fn bound(value: f64, sizes: f64) -> f64 {
     let terms = 81.0 * U + U * (30.0 + 4.0 * 93.0) + U * (6.0 + 4.0 * 40.0);
     2.0 * sizes * terms + (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))

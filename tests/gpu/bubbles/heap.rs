@@ -144,8 +144,9 @@ pub fn turn_at_random(blobs: &mut [Bubble], seed: u64) {
     }
 }
 
-/// Checks that blobs are turned as the host says. The square of a quaternion's length has at most
-/// six roundings, half of which its root keeps; the root's reciprocal has 4u and the product one.
+/// Checks that blobs have the host's rotations, normalised, and its ids. The squared length has at
+/// most six roundings, and its square root half of their error. The reciprocal of the root adds 4u,
+/// the product with it 1u.
 fn check_turns(running: &Running, blobs: &[Bubble]) {
     for (found, own) in running.blobs().iter().zip(blobs) {
         let expected = DQuat::from_array(own.turn.map(f64::from)).normalize();
@@ -181,13 +182,15 @@ pub fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bub
 pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
 
 /// The twin tests all pairs, and starts every step from the GPU's state, so that errors do not
-/// grow. A velocity is a sum of forces with about fifty roundings each, so its bound is 64u of the
-/// sum of their sizes, times dt, and of the speed. A force of a pair is at most the stiffness times
-/// the distance at rest and the damping times the speeds, with a share of the masses up to 2; that
-/// of a solid is the solidity times the radius and the damping times the speed; the lift of water is
-/// the weight over the density. A solid's distance
-/// also has some roundings of the place. For positions the bound is dt times that, and the
-/// position's own rounding.
+/// grow. A velocity is a sum of forces with about fifty roundings each. Its bound is 64u times the
+/// speed plus dt times the largest sizes of the forces:
+/// - of a pair, twice (the share of the masses) the stiffness times the distance at rest plus the
+///   damping times the speeds;
+/// - of a solid, the solidity times the radius plus the damping times the speed, and some roundings
+///   of the place;
+/// - of water, the weight over the density.
+///
+/// The bound of a position is dt times that, plus the position's own rounding.
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
@@ -676,7 +679,8 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     assert!(balls(&apart).iter().zip(&blobs).any(|(now, then)| *now != then.ball), "they move");
 }
 
-/// Blobs of any bits: the sound ones among them stay finite, and so does what is drawn of the others.
+/// Two thirds of the blobs get hostile bits. All radii stay finite and all rotations normalised; the
+/// other blobs stay finite in everything.
 #[test]
 fn hostile_bits_in_a_heap() {
     let gpu = Gpu::shared();

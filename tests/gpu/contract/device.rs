@@ -595,13 +595,8 @@ fn timings_name_the_passes_of_other_parts() {
         shot.settings.shore.contact.particle_opacity = 1.0;
         shot.shore = config.shore.map(|_| Shore::new(0.0).with_shoreline(Shoreline::Screen));
         let cloud = rig.particles(&shot);
-        let points = rig.whitewater(&Whitewater {
-            positions: &shot.positions,
-            kinds: None,
-            radii: None,
-            ages: None,
-            ids: None,
-        });
+        let points =
+            rig.whitewater(&Whitewater { positions: &shot.positions, ..Default::default() });
         let whitewater = config.whitewater.map(|_| points.particles());
         rig.draw_whitewater(&shot, &cloud.particles(), whitewater);
         let names: Vec<_> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();

@@ -109,13 +109,8 @@ fn in_any_state(composite: Shading, in_place: bool) {
     // The whitewater's sea, the shore's surface and its mask are images of their own.
     let [(_, mut sea), (mut mask, mut surface)] = [rig.scene(&shot), rig.scene(&shot)];
     let points = scenes::world(&shot.camera, &scenes::cloud(5, 40, 2.0, 5.0));
-    let foam = rig.whitewater(&whitewater::headless::Whitewater {
-        positions: &points,
-        kinds: None,
-        radii: None,
-        ages: None,
-        ids: None,
-    });
+    let foam = rig
+        .whitewater(&whitewater::headless::Whitewater { positions: &points, ..Default::default() });
     let lent = |image: &Texture, after| image.host_image().with(|it| it.after = after);
     let shore = |surface, mask| {
         Shore::new(0.0).with(|it| {
@@ -304,13 +299,8 @@ fn one_image_may_be_two_inputs() {
     let mut image = sea.host_image();
     (image.before, image.after) = (state, state);
     let points = scenes::world(&shot.camera, &scenes::cloud(5, 40, 2.0, 5.0));
-    let foam = rig.whitewater(&whitewater::headless::Whitewater {
-        positions: &points,
-        kinds: None,
-        radii: None,
-        ages: None,
-        ids: None,
-    });
+    let foam = rig
+        .whitewater(&whitewater::headless::Whitewater { positions: &points, ..Default::default() });
     let foam = foam.particles().with(|it| it.fluid_depth = Some(image));
     let shore = |image| Shore::new(0.0).with(|it| it.surface = Some(Surface::Depth(image)));
     shot.shore = Some(shore(image));
