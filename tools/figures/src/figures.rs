@@ -142,8 +142,9 @@ fn iteration_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
 fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     let mut before = 0.0;
-    // The threshold that the tool finds for the sequence corresponds to the thesis's 80.
-    let found = found_threshold(&tool.frame("waterfall", 240, "--surface-foam auto")?.layers)?;
+    // The threshold that the tool finds for the sequence corresponds to the thesis's 80. A threshold that is given is
+    // one of the water's speed; by default the tool finds one of trapped air.
+    let found = found_threshold(&tool.frame("waterfall", 240, "--look thesis")?.layers)?;
     println!("thresholds: found We {found:.1}");
     for source in [110.0, 90.0, 70.0, 50.0] {
         let threshold = found / 80.0 * source;
@@ -209,10 +210,11 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
 
 /// Figures 4.13 and 4.15: thickness of water and of foam from a single particle, and from many.
 fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
-    // The view from above shows only ground behind the particle.
     let view = "--radius 0.05 --eye 0,0.8,0 --target 0,0,0 --up 0,0,-1 --fov 40 --spray none --shadows none";
     let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --surface-foam none"))?;
-    let own = tool.settings("[surface_foam]\npattern = 0\nnoise = 1\n")?;
+    // A particle by itself has no foam by default.
+    let own = "[surface_foam]\npattern = 0\nnoise = 1\nfew_neighbours = [0.0, 0.0]\n";
+    let own = tool.settings(own)?;
     let moving = "x,y,z,vx,vy,vz\n0,0,0,1.5,0,1\n";
     let foam = tool.particles(moving, &format!("{view} --surface-foam 1e-6 {own}"))?;
     let near = tool.frame("waterfall", 240, &format!("{NEAR} --thickness-level 0"))?.layers;
@@ -220,7 +222,10 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
         let (side, width) = (SIZE.1 as u32, image.width());
         image::imageops::crop_imm(&image, (width - side.min(width)) / 2, 0, side, side).to_image()
     };
-    let most = |layers: &Layers, name: &str| Ok::<_, String>(panels::range_of(layers, name)?.1);
+    let most = |layers: &Layers, name: &str| match panels::range_of(layers, name)?.1 {
+        most if most > 0.0 => Ok(most),
+        _ => Err(format!("{name} is 0 everywhere: there is no kernel to show")),
+    };
     let part = |layers: &Layers, name: &str, scale: f32| {
         Ok::<_, String>(square(amount(layers, name, scale)?))
     };

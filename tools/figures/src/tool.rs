@@ -338,14 +338,14 @@ impl Tool {
         picture::read(&self.temporary("one.exr")).map_err(|error| error.to_string())
     }
 
-    /// The layers of a frame of our own particles, `x,y,z...` as CSV. `more` are further arguments.
+    /// The layers of a frame of our own particles, `x,y,z...` as CSV, without surroundings. `more` are further arguments.
     pub fn particles(&self, csv: &str, more: &str) -> Outcome<Layers> {
         let [from, exr] = ["own.csv", "own.exr"].map(|name| self.temporary(name));
         std::fs::write(&from, csv).map_err(|error| format!("{}: {error}", from.display()))?;
         let mut arguments = vec![
             "render".to_owned(),
             from.display().to_string(),
-            "--scene=ground".to_owned(),
+            "--set=none".to_owned(),
             "--supersample=1".to_owned(),
             "--thickness-level=0".to_owned(),
             format!("--size={}x{}", SIZE.1, SIZE.1),
