@@ -328,7 +328,7 @@ pub struct DrawArgs {
     pub settings: Option<PathBuf>,
     /// Liquid: clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source (the thesis')
     /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres and, without --scene,
-    /// in the set 'pool'; source with --look thesis]
+    /// in the set 'pool'; for two-dimensional water, one spacing thick, pool as of a metre; source with --look thesis]
     ///
     /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is green,
     /// 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava' glows. Absorption
@@ -398,7 +398,7 @@ pub struct DrawArgs {
     #[arg(long = "foam", hide = true, value_name = "WHEN", value_parser = was_foam)]
     pub foam: Option<Foaming>,
     /// Spray of particles with few or no neighbours: auto or none [default: auto; none if there are very few
-    /// particles]
+    /// particles, or if they are two-dimensional]
     ///
     /// Whether a particle is spray depends on its density (from the files, or estimated) and on its neighbours. Keys
     /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3.5, 9]: if the sum of the neighbours'

@@ -130,6 +130,10 @@ const OWN_BLUE: f32 = 0.45;
 /// depth is dark, and few solvers' units are metres.
 const LARGE: f32 = 10.0;
 
+/// Depth of pool water, in metres, whose colour a sheet of two-dimensional water has. The thickness of the sheet, one
+/// spacing, is the solver's choice, and so little water has no colour.
+const SHEET: f32 = 1.0;
+
 /// Results that are found before the look.
 pub struct Found {
     pub camera: Option<CameraFile>,
@@ -200,9 +204,10 @@ pub fn look(
         settings.water.rest_density = density;
     }
     settings.noise = session::noise(&args.draw, &file);
-    // If there are few particles, spray would leave no water to see.
+    // If there are few particles, spray would leave no water to see. The limits of spray count the neighbours in a
+    // volume; those in a plane are too few.
     let few = probes.spacing().is_none();
-    let lone = args.draw.spray.is_none() && few;
+    let lone = args.draw.spray.is_none() && (few || sheet.is_some());
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.surface_foam, spacing);
@@ -215,12 +220,20 @@ pub fn look(
         whitewater_of_caches(&mut settings.whitewater);
         waves_of_caches(&mut settings.water, spacing, &bounds);
         let wide = bounds.size().x.max(bounds.size().z);
-        if wide < SMALL {
+        if sheet.is_some() {
+            settings.water.medium = Medium::POOL.thinned(SHEET / spacing);
+            file.water.leave_straight();
+            if file.water.medium.is_none() {
+                progress.say(&format!(
+                    "the sheet has the colour of {SHEET} metre of pool water (--medium, table [water] medium)"
+                ));
+            }
+        } else if wide < SMALL {
             settings.water.medium = Medium::CLEAR;
         } else if args.scene.is_none() && args.set.unwrap_or_default() == SetArg::Pool {
             settings.water.medium = settings.water.medium.thinned(OWN_BLUE);
         }
-        if wide > LARGE && file.water.medium.is_none() {
+        if wide > LARGE && sheet.is_none() && file.water.medium.is_none() {
             settings.water.medium = settings.water.medium.thinned(LARGE / wide);
             let wide = round(wide);
             progress.say(&format!(

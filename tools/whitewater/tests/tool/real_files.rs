@@ -313,12 +313,38 @@ fn two_dimensions_are_told_and_seen_from_the_front() {
         assert!(said.contains("two-dimensional: drawn as a sheet one spacing thick"), "{said}");
         assert_eq!(said.contains("z is up in the files"), file == "xz", "{said}");
         assert!(!said.contains("a basin"), "{said}");
+        assert!(said.contains("the sheet has the colour of 1 metre of pool water"), "{said}");
     }
     folder.run("compare xy.exr xz.exr --tolerance 1e-4").ok();
     let picture = folder.picture("xy.exr");
     let depth = picture.channel("water.depth.Z").unwrap();
     let wet = depth.iter().filter(|z| **z < whitewater::io::picture::EMPTY).count();
     assert!(wet > 600, "{wet} of {} pixels", depth.len());
+    // Blue on the studio's grey. A metre of pool water takes 1 - exp(-1.1) of red and 1 - exp(-0.11) of blue.
+    let [mut water, mut ground] = [Vec::new(), Vec::new()];
+    for (z, [red, _, blue]) in depth.iter().zip(picture.rgb().unwrap()) {
+        let of = if *z < whitewater::io::picture::EMPTY { &mut water } else { &mut ground };
+        of.push(red / blue);
+    }
+    let median = |ratios: &mut Vec<f32>| {
+        ratios.sort_by(f32::total_cmp);
+        ratios[ratios.len() / 2]
+    };
+    let [water, ground] = [&mut water, &mut ground].map(median);
+    let through = (-1.1_f32).exp() / (-0.11_f32).exp();
+    assert!(
+        (0.8 * through..0.5 * (1.0 + through)).contains(&(water / ground)),
+        "{water} on {ground}"
+    );
+    let (_, config) = picture.attributes.iter().find(|(name, _)| name == "config").unwrap();
+    assert!(config.contains("spray: false") && config.contains("exit: Straight"), "{config}");
+    // A liquid that is asked for is that liquid.
+    let said = folder
+        .run(&format!("render xy.csv -o milk.exr {SIZE} --set studio --medium milk"))
+        .ok()
+        .stderr();
+    assert!(!said.contains("the sheet has"), "{said}");
+    folder.run("compare xy.exr milk.exr --tolerance 0.01").fails(1, &["RMSE"]);
 }
 
 /// A folder stands for the sequence in it. Step numbers are not times; the frame rate comes from the files.
