@@ -8,6 +8,7 @@
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"
+#include "panes.glsl"
 #include "surface_foam_texels.glsl"
 #include "beside.glsl"
 #include "convolution.glsl"

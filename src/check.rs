@@ -9,6 +9,7 @@ use crate::contract::{
 use crate::error::Error;
 use crate::frame::{Lens, check_settings, check_up};
 use crate::water::MOST_COARSENING;
+use crate::water::panes;
 use crate::water::settings::{Shadows, range};
 
 /// The field names of a host image's states and rect, for [`image`].
@@ -98,6 +99,7 @@ pub fn frame(
     }
     sun(frame, config)?;
     previous(frame, config)?;
+    panes::check(frame.panes)?;
     Lens::new(&frame.camera)
 }
 

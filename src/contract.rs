@@ -18,6 +18,7 @@ use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
 use crate::gpu::memory::Allocate;
 use crate::shore::settings::{ShoreConfig, ShoreSettings};
+use crate::water::panes::Pane;
 use crate::water::settings::{
     DebugView, Exit, Kernels, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat,
     SpraySettings, SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
@@ -1176,6 +1177,8 @@ pub struct Frame<'a> {
     /// The previous frame, for motion vectors. Without [`Config::motion`] it has to be `None`. With `None`, as in a
     /// first frame, all vectors are zero.
     pub previous: Option<Previous>,
+    /// Panes of glass that the water stands against, at most [`MAX_PANES`](crate::water::MAX_PANES); none by default.
+    pub panes: &'a [Pane],
     /// Settings that are uniforms.
     pub settings: &'a Settings,
 }
@@ -1204,6 +1207,7 @@ impl<'a> Frame<'a> {
             shadow: None,
             light_volume: None,
             previous: None,
+            panes: &[],
             settings,
         }
     }
@@ -1248,6 +1252,12 @@ impl<'a> Frame<'a> {
     #[must_use]
     pub fn with_previous(self, previous: Previous) -> Self {
         Self { previous: Some(previous), ..self }
+    }
+
+    /// Adds panes of glass that the water stands against.
+    #[must_use]
+    pub fn with_panes(self, panes: &'a [Pane]) -> Self {
+        Self { panes, ..self }
     }
 
     /// Whether the output is its own scene.

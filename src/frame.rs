@@ -8,6 +8,7 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 use crate::contract::{Camera, Config, Frame, Light, LightVolume, Settings};
 use crate::error::Error;
 use crate::gpu::shader;
+use crate::water::panes::{self, MAX_PANES};
 use crate::water::settings::{
     Amplitude, Bed, Compositing, Fresnel, GREATEST, Medium, Rule, SpraySettings,
     SurfaceFoamSettings, WATER_INDEX, WaterSettings, range,
@@ -98,6 +99,7 @@ pub struct FrameUniforms {
     pub bed: [f32; 4],
     pub bed_light: [f32; 4],
     pub wavelets: [[f32; 4]; WAVELETS],
+    pub panes: [[f32; 4]; 3 * MAX_PANES],
 }
 
 shader::assert_layout!(
@@ -178,6 +180,7 @@ shader::assert_layout!(
         bed,
         bed_light,
         wavelets,
+        panes,
     }
 );
 
@@ -373,7 +376,7 @@ impl FrameUniforms {
             ],
             slope: lens.slope(full, 1.0).to_array(),
             thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
-            texel: [c_x, c_y, water.wavelets.amplitude(), 0.0],
+            texel: [c_x, c_y, water.wavelets.amplitude(), frame.panes.len() as f32],
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
@@ -521,6 +524,7 @@ impl FrameUniforms {
             bed: wet,
             bed_light,
             wavelets: water.wavelets.sines(frame.settings.upward()),
+            panes: panes::rows(frame.panes, lens.view),
         }
     }
 }

@@ -48,6 +48,8 @@ mod limits;
 mod motion;
 #[path = "gpu/noise.rs"]
 mod noise;
+#[path = "gpu/panes.rs"]
+mod panes;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/rect.rs"]

@@ -14,7 +14,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 thick_extent;  // thickness width, height; size of its texels in pixels; 0
     vec4 slope;         // full pixel -> slope: scale xy, offset zw
     vec4 thick_slope;   // thickness pixel -> slope
-    vec4 texel;         // C_x C_y: world size of a pixel per depth; slope of a wavelet; 0
+    vec4 texel;         // C_x C_y: world size of a pixel per depth; slope of a wavelet; number of panes
     vec4 scene_depth;   // scene-depth texels per pixel, size of the used part
     vec4 scene_color;   // the same for the scene's colour
     vec4 scene_origin;  // first texel of the used part: of the scene's depth, of its colour
@@ -79,6 +79,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 bed;           // share of upward light that leaves the water; path of skylight, of sunlight, per unit of depth; 1/n, or 0: dry
     vec4 bed_light;     // pi over the irradiance; transmittance of sunlight relative to skylight
     vec4 wavelets[15];  // wave vector in the world, cycles per scene unit; phase in cycles
+    vec4 panes[24];     // three rows per pane of glass: distance before it, place along its edges (0 to 1)
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

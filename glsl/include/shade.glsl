@@ -249,8 +249,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
 #include "met_water.glsl"
 
 // The sheet (layer of water) with this front surface and the thickness `t` along z. `ripple` is the surface noise and
-// its slope per pixel. `marched` allows a march for reflections of the scene, if MIRROR enables it.
-Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
+// its slope per pixel. `flat_face`: the surface is flush with a pane and has no waves. `marched` allows a march for reflections of the scene, if MIRROR enables it.
+Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool flat_face, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
@@ -274,7 +274,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         n = rippled(n, px, py, (1.0 - frame.noise_color.w * wet) * ripple.yz);
     }
 
-    n = with_wavelets(n, position, t);
+    n = flat_face ? n : with_wavelets(n, position, t);
 
     Sheet sheet;
     sheet.at = position;
@@ -296,6 +296,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     // Reflection and highlight fade out where the water is thin, because at the rims of drops they would outline
     // every drop.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
+    w = flat_face ? 0.0 : w;
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;
     // A reflected ray that points below the horizon would meet more water, not the environment's ground. So the
@@ -368,7 +369,7 @@ vec3 over(Sheet sheet, vec3 background) {
 // with the scene fade near its edge, all but the refraction also where little air separates the sheets. Its thickness
 // `t` has already been scaled by the amount of air.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
-    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false);
+    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false, false);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     bool there = surface.covered > 0.0 && !(scene > 0.0 && surface.z >= scene);
     float share = there ? surface.found : 0.0;
@@ -732,14 +733,22 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         surface.dz = mix(surface.dz, other.dz, lost);
         surface.found += lost;
     }
-    face = Face(surface.z, 0.0, vec3(0.0));
 
     // Water thinner than one layer of particles is a drop: it has the slope of its particle's sphere, unsmoothed.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
+    // The far surface of the water stays where it is, and so does its slope, the sum of those of the particles' front
+    // surface and of the thickness.
+    Surface relief = surface;
+    bool at_pane = flush(surface, slope);
+    float gap = relief.z - surface.z;
+    relief.z = surface.z;
+    t = max(t + gap, 0.0);
+    all = max(all + gap, 0.0);
+    face = Face(surface.z, 0.0, vec3(0.0));
     // `ripple`, the surface noise, is only for the front sheet (layer of water): it belongs to the particles there.
-    vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
-    Sheet sheet = sheet_of(surface, pixel, t, ripple, true);
+    vec3 ripple = NOISE == 1u && !at_pane ? ripple_at(pixel, front, threshold) : vec3(0.0);
+    Sheet sheet = sheet_of(surface, pixel, t, ripple, at_pane, true);
     Foam foam;
     bool past = false;
     bool behind_boundary = false;
@@ -788,7 +797,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
     while (open) {
-        way = exit_of(sheet, surface, pixel, c, covers, covers ? back.wet : 0.0);
+        way = exit_of(sheet, relief, pixel, c, covers, covers ? back.wet : 0.0);
         c = way.scene;
         sheet.path = way.path;
         open = false;

@@ -163,6 +163,7 @@ impl Headless {
             shadow,
             light_volume: self.region,
             previous: self.previous,
+            panes: &self.panes,
             settings,
         };
         let mut parts = Parts {

@@ -51,6 +51,7 @@ use crate::gpu::buffer::Buffer;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::renderer::Renderer;
+use crate::water::Pane;
 use crate::water::settings::Shading;
 
 /// Output format: linear, scene-referred.
@@ -109,6 +110,8 @@ pub struct Headless {
     generating: Option<Generating>,
     foam: Option<Foaming>,
     region: Option<LightVolume>,
+    /// Panes of glass of the scene.
+    panes: Vec<Pane>,
     previous: Option<Previous>,
     count: u32,
     /// Index range of the drawn particles; `None` draws all.
@@ -177,6 +180,7 @@ impl Headless {
             generating: None,
             foam: None,
             region: None,
+            panes: Vec::new(),
             previous: None,
             count: 0,
             shown: None,

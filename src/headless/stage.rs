@@ -95,6 +95,7 @@ impl Headless {
         if let Some(old) = self.scene.take() {
             old.renderer.destroy(&self.gpu);
         }
+        self.panes.clear();
         let gpu = &self.gpu;
         let (color, depth) = (COLOR_FORMAT, DEPTH_FORMAT);
         let made = match light {
@@ -117,6 +118,7 @@ impl Headless {
         })?;
         stage.renderer.finish_setup(&self.gpu);
         self.scene = Some(stage);
+        self.panes.clone_from(&scene.panes);
         Ok(())
     }
 

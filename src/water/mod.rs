@@ -10,6 +10,7 @@ mod gaps;
 mod level;
 mod motion;
 mod noise;
+pub(crate) mod panes;
 mod reduce;
 pub(crate) mod settings;
 mod shape;
@@ -46,6 +47,7 @@ pub(crate) use cull::{
 };
 pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use level::{MOST_COARSENING, coarsening};
+pub use panes::{MAX_PANES, Pane};
 #[cfg(feature = "diagnostics")]
 pub use settings::{Amplitude, Bed, Compositing, DebugView, Gate, Rule, Smoothing, Splat};
 pub use settings::{

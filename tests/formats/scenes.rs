@@ -39,7 +39,8 @@ const JSON: &str = r#"{"boxes":[
     "cylinders":[{"material":"stone","centre":[0,1,0],"radius":0.2,"bore":0.1,"height":1,"slope":0.5}],
     "spheres":[{"material":"stone","centre":[0,1,0],"radius":0.2}],
     "motion":[{"parts":["lid"],"origin":[0,0,0],"first_frame":1,"poses":[[0,0,0,0,0,0,1],[0,1,0,0,0,0,1]]}],
-    "ground":{"y":-0.1,"material":"ground"},"fluid":{"pool_level":0.2}}"#;
+    "ground":{"y":-0.1,"material":"ground"},"fluid":{"pool_level":0.2},
+    "panes":[{"corner":[0,0,1],"edges":[[1,0,0],[0,1,0]]}]}"#;
 
 type Parse = fn(&[u8]) -> Result<Scene, String>;
 

@@ -7,7 +7,7 @@ use ash::vk;
 use glam::{Mat4, Vec3};
 use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
 use whitewater::headless::{Background, Device, Headless};
-use whitewater::water::WeberSettings;
+use whitewater::water::{Pane, WeberSettings};
 use whitewater::{Camera, Error, Sky};
 
 use crate::support::device::Gpu;
@@ -244,6 +244,40 @@ fn a_camera_that_rests_keeps_the_scene() {
     assert!(anew == first && other_depth != depth);
     let device = headless.finish().expect("finish");
     assert_eq!(spy::live(), Vec::<String>::new());
+    assert_eq!(device.take_messages(), Vec::<String>::new());
+}
+
+/// Water is flush with the panes of the scene, until another scene replaces it.
+#[test]
+fn panes_of_the_scene_flatten_the_water() {
+    let size = extent(64, 48);
+    let mut headless = Headless::new(Gpu::own().take_device(), &config(size)).expect("headless");
+    let camera = scenes::camera(Lens::Standard, size);
+    let settings = scenes::settings(0.2);
+    let points = scenes::world(&camera, &scenes::block(3, 0.25, [14, 10, 3], [-1.8, -1.2, 4.0]));
+    headless.particles(&points, None).expect("particles");
+    let corners = [[-3.0, 3.0, 4.0], [-3.0, -3.0, 4.0], [3.0, 3.0, 4.0]];
+    let corners = scenes::world(&camera, &corners).into_iter().map(Vec3::from);
+    let [corner, a, b] = corners.collect::<Vec<_>>().try_into().expect("three");
+    let mut edges = [a - corner, b - corner].map(|edge| edge.to_array());
+    let eye = camera.view_matrix().inverse().transform_point3(Vec3::ZERO);
+    if (a - corner).cross(b - corner).dot(eye - corner) < 0.0 {
+        edges.swap(0, 1);
+    }
+    let panes = vec![Pane { corner: corner.to_array(), edges }];
+    let mut drawn = |panes| {
+        headless.scene(&Scene { panes, ..scene() }, false).expect("scene");
+        headless.render(&camera, &settings, &Background::Scene).expect("a frame");
+        headless.color().expect("read back")
+    };
+    let [bare, flat, again] = [Vec::new(), panes, Vec::new()].map(&mut drawn);
+    let moved = flat.data.iter().zip(&bare.data).filter(|(a, b)| a != b).count();
+    assert!(moved > 300 && again == bare, "{moved}");
+    let bad = vec![Pane { corner: [0.0; 3], edges: [[0.0; 3]; 2] }];
+    headless.scene(&Scene { panes: bad, ..scene() }, false).expect("scene");
+    let error = headless.render(&camera, &settings, &Background::Scene);
+    assert!(matches!(error, Err(Error::BadInput { field: "Frame.panes", .. })), "{error:?}");
+    let device = headless.finish().expect("finish");
     assert_eq!(device.take_messages(), Vec::<String>::new());
 }
 

@@ -21,6 +21,7 @@ pub mod levels;
 pub mod light;
 pub mod motion;
 pub mod noise;
+pub mod panes;
 pub mod reduce;
 pub mod shape;
 pub mod sheets;

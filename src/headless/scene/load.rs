@@ -11,6 +11,7 @@ use serde::de::IgnoredAny;
 use super::shapes::{FACES, quaternion};
 use super::{Ground, Material, Mesh, Motion, Pattern, Scene, SunLight, Viewpoint};
 use crate::environment::Sky;
+use crate::water::{MAX_PANES, Pane};
 
 /// A scene file that could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -87,10 +88,12 @@ impl Scene {
     /// and a sun. Each entry of `motion` lists the names of shapes that move together, and gives one pose for each
     /// frame. Two or more boxes whose names begin with `basin` form a basin: the faces that look into it are tiled,
     /// except those of rotated boxes. If `fluid` has a `pool_level`, there is a row of darker tiles at this height.
+    /// `panes` lists panes of glass that hold the water ([`Pane`]: `corner` and `edges`).
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, has an unknown key or another unit than metres, has neither
-    /// shapes nor a ground, names an unknown material or part, or has a value out of range, such as a radius of 0.
+    /// shapes nor a ground, names an unknown material or part, has a value out of range, such as a radius of 0, or
+    /// more than [`MAX_PANES`] panes.
     pub fn from_json(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
@@ -117,6 +120,8 @@ struct File {
     sun: Option<FileSun>,
     #[serde(default)]
     motion: Vec<FileMotion>,
+    #[serde(default)]
+    panes: Vec<FilePane>,
     /// Begins with "metres".
     units: Option<String>,
     // For people who read the file.
@@ -172,6 +177,13 @@ struct FileMotion {
     #[serde(default)]
     first_frame: u64,
     poses: Vec<[f32; 7]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FilePane {
+    corner: [f32; 3],
+    edges: [[f32; 3]; 2],
 }
 
 #[derive(Deserialize)]
@@ -298,6 +310,14 @@ impl Scene {
                 scene.meshes.push(shape(tiles.clone(), &inner));
             }
             scene.meshes.push(shape(outside, &|face| !inner(face)));
+        }
+        if file.panes.len() > MAX_PANES {
+            return Err(format!("panes: expected {MAX_PANES} at most, found {}", file.panes.len()));
+        }
+        for (i, FilePane { corner, edges }) in file.panes.into_iter().enumerate() {
+            let pane = Pane { corner, edges };
+            pane.check().map_err(|why| format!("panes[{i}]: found {why}: {pane:?}"))?;
+            scene.panes.push(pane);
         }
         for part in file.cylinders {
             positive(part.radius, "radius", &part.name)?;
@@ -489,6 +509,11 @@ mod tests {
                 "{\"boxes\"",
                 "{\"motion\":[{\"parts\":[\"x\"],\"origin\":[0,0,0],\"poses\":[]}],\"boxes\"",
                 "'x'",
+            ),
+            (
+                "{\"boxes\"",
+                "{\"panes\":[{\"corner\":[0,0,0],\"edges\":[[1,0,0],[2,0,0]]}],\"boxes\"",
+                "panes[0]: found edges without an area",
             ),
         ] {
             let why = Scene::parse_json(JSON.replacen(from, to, 1).as_bytes()).expect_err(from);

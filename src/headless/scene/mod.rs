@@ -19,6 +19,7 @@ pub use renderer::{SceneFrame, SceneRenderer};
 pub use sea::{Liquid, Sea};
 
 use crate::environment::Sky;
+use crate::water::Pane;
 
 /// Surroundings of the water. World space: right-handed, y up.
 #[derive(Clone, Debug, Default)]
@@ -61,6 +62,9 @@ pub struct Scene {
     /// World units per metre, (0, ∞), for procedural surfaces: their fine detail, such as grains of sand and fibres
     /// of wood, has a fixed size in metres. (Lengths in [`Pattern`] are in world units.) `None`, the default: 1.
     pub metre: Option<f32>,
+    /// Panes of glass that the water stands against, at most [`MAX_PANES`](crate::water::MAX_PANES). They are static
+    /// and not drawn; edges and mounts can be [`meshes`](Self::meshes) or [`backdrop`](Self::backdrop).
+    pub panes: Vec<Pane>,
 }
 
 /// Meshes that move as one.

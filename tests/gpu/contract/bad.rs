@@ -2,7 +2,7 @@
 //! recorded.
 
 use ash::vk;
-use whitewater::water::{Convolution, Shading, Shadows};
+use whitewater::water::{Convolution, MAX_PANES, Pane, Shading, Shadows};
 use whitewater::{
     Context, Count, EnvironmentSource, Equirectangular, Error, Frame, LightVolume, Packets,
     Previous, Recorded, Settings, Shadow, Slot, Stream,
@@ -233,6 +233,20 @@ fn spoils() -> Vec<Spoil> {
             g.frame.light_volume = Some(LightVolume { center: [0.0; 3], radius: 1.0 });
         }),
         ("shadow", "Frame.shadow", |g| g.frame.shadow = Some(shadow(&g.frame))),
+        ("panes", "Frame.panes", |g| g.frame.panes = &[PANE; MAX_PANES + 1]),
+        ("a line for a pane", "Frame.panes", |g| {
+            const LINE: Pane = Pane { edges: [[1.0, 2.0, 0.0], [2.0, 4.0, 0.0]], ..PANE };
+            g.frame.panes = &[PANE, LINE];
+        }),
+        ("a point for a pane", "Frame.panes", |g| {
+            g.frame.panes = &[Pane { edges: [[0.0; 3]; 2], ..PANE }];
+        }),
+        ("nowhere's pane", "Frame.panes", |g| {
+            g.frame.panes = &[Pane { corner: [0.0, f32::NAN, 0.0], ..PANE }];
+        }),
+        ("an endless pane", "Frame.panes", |g| {
+            g.frame.panes = &[Pane { edges: [[1.0, 0.0, 0.0], [0.0, f32::INFINITY, 0.0]], ..PANE }];
+        }),
         ("box", "Settings.shadow.width", |g| g.settings.shadow.width = -1.0),
         ("damping", "Settings.shadow.damping", |g| g.settings.shadow.damping = f32::NAN),
         ("offset", "Settings.shadow.offset", |g| g.settings.shadow.offset = 1.5),
@@ -242,6 +256,9 @@ fn spoils() -> Vec<Spoil> {
         }),
     ]
 }
+
+/// A pane that is right.
+const PANE: Pane = Pane { corner: [0.0; 3], edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] };
 
 /// A shadow map: the scene's depth image stands in for the light's.
 fn shadow(frame: &Frame<'_>) -> Shadow {

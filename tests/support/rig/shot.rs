@@ -2,6 +2,7 @@
 
 use ash::vk;
 use whitewater::headless::Bubble;
+use whitewater::water::Pane;
 use whitewater::{
     Camera, Frame, HostImage, LightVolume, Particles, Previous, Settings, Shadow, Shore, Slot,
 };
@@ -33,6 +34,8 @@ pub struct Shot {
     pub light_volume: Option<LightVolume>,
     /// State of the previous frame.
     pub previous: Option<Previous>,
+    /// Panes of glass that the water stands against.
+    pub panes: Vec<Pane>,
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
     pub densities: Option<Vec<f32>>,
@@ -60,6 +63,7 @@ impl Shot {
             shadow: None,
             light_volume: None,
             previous: None,
+            panes: Vec::new(),
             settings: scenes::settings(radius),
             densities: None,
             blobs: Vec::new(),
@@ -85,6 +89,7 @@ impl Shot {
             it.shore = self.shore;
             (it.shadow, it.light_volume) = (self.shadow, self.light_volume);
             it.previous = self.previous;
+            it.panes = &self.panes;
         })
     }
 

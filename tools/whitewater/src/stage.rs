@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene};
+use whitewater::water::Pane;
 
 use crate::args::SetArg;
 use crate::bounds::Bounds;
@@ -112,6 +113,25 @@ struct Side {
     highest: f32,
     /// Height up to which the water touches the side.
     reach: f32,
+}
+
+impl Side {
+    /// The side of a box as a pane of glass that holds water in the box.
+    fn pane(&self, low: Vec3, high: Vec3) -> Pane {
+        let mut corner = low;
+        corner[self.axis] = self.at;
+        // Of the axes x, y and z, the product of the next two is each one, which points out of the box at its far end.
+        let mut edges = [1, 2].map(|next| {
+            let axis = (self.axis + next) % 3;
+            let mut edge = Vec3::ZERO;
+            edge[axis] = high[axis] - low[axis];
+            edge.to_array()
+        });
+        if self.sign < 0.0 {
+            edges.swap(0, 1);
+        }
+        Pane { corner: corner.to_array(), edges }
+    }
 }
 
 /// Thickness of the outermost layer of particles in spacings; within it, some are pressed farther out than others.
@@ -247,7 +267,10 @@ pub fn basin_round(
     };
     // Panes hold water that is higher than the walls; all panes have one height.
     let foot = |side: &Side| top_of(towards_eye(side)) + slab;
-    let held = sides.iter().filter(|side| side.reach > foot(side) + 4.0 * spacing);
+    let holds = |side: &Side| {
+        side.reach > foot(side) + 4.0 * spacing || side.level > foot(side) + 0.5 * spacing
+    };
+    let held = sides.iter().filter(|side| holds(side));
     let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
     let sheet = 1.0e-3 * longest;
     let (from, to) = (low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet);
@@ -299,7 +322,8 @@ pub fn basin_round(
         }
         // The edges of clear glass are visible, and its mount.
         let foot = foot(side);
-        if head > foot + 4.0 * spacing {
+        if head > foot + 4.0 * spacing || holds(side) {
+            scene.panes.push(side.pane(low, Vec3::new(high.x, head, high.z)));
             for (name, material, inner, outer, low, high, ends) in [
                 (
                     "pane foot",
@@ -573,6 +597,48 @@ mod tests {
         assert!(found.iter().all(|top| (1.9..2.2).contains(top)), "{found:?}");
         assert!(found.iter().all(|top| (top - found[0]).abs() < 1.0e-4), "{found:?}");
         assert!(edges(&on_wall(1)).is_empty(), "drops");
+    }
+
+    /// Each drawn pane is handed to the renderer as well: in the plane of its edges, from the floor to its upper edge,
+    /// with its normal out of the basin.
+    #[test]
+    fn panes_face_out_of_the_basin() {
+        let dam: Vec<_> =
+            (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
+        let bounds = Bounds::of_bulk(&dam).unwrap();
+        let middle = bounds.center();
+        for (eye, from_all_sides, wanted) in [
+            (Vec3::new(9.0, 5.0, 9.0), false, vec![Vec3::X, Vec3::Z]),
+            (Vec3::new(-9.0, 5.0, 9.0), false, vec![-Vec3::X, Vec3::Z]),
+            (Vec3::new(9.0, 5.0, -9.0), true, vec![-Vec3::X, Vec3::X, -Vec3::Z, Vec3::Z]),
+        ] {
+            let from = (eye, from_all_sides);
+            let scene = basin_round(&[&dam], &bounds, 0.1, from, SetArg::Pool, &[]).unwrap();
+            let normals = scene.panes.iter().map(|pane| {
+                let [a, b] = pane.edges.map(Vec3::from);
+                let normal = a.cross(b).normalize();
+                // The block's faces lie at 0 and 1.9, its floor at 0, its top at 2.9.
+                let corner = Vec3::from(pane.corner);
+                let far = corner + a + b;
+                assert!((normal.dot(corner - middle) - 0.95).abs() < 0.02, "{pane:?}");
+                assert!(corner.y.abs() < 0.01 && (2.9..3.2).contains(&far.y), "{pane:?}");
+                normal
+            });
+            assert_eq!(normals.collect::<Vec<_>>(), wanted);
+        }
+    }
+
+    /// Water that stands a little higher than a wall is held by glass, and not by air.
+    #[test]
+    fn panes_hold_water_that_rests_above_the_walls() {
+        // Coarse particles: 3 rows higher than the near walls.
+        let tank: Vec<_> =
+            (0..20 * 6 * 12).map(|i| [i % 20, i / 20 % 6, i / 120].map(|i| i as f32)).collect();
+        let bounds = Bounds::of_bulk(&tank).unwrap();
+        let from = (Vec3::new(60.0, 30.0, 60.0), false);
+        let scene = basin_round(&[&tank], &bounds, 1.0, from, SetArg::Pool, &[]).unwrap();
+        assert_eq!(scene.panes.len(), 2);
+        assert!(scene.backdrop.iter().any(|mesh| mesh.name == "pane edge"));
     }
 
     /// If a high dam of water stands in only one frame, the first or another, the panes of glass on the basin's walls

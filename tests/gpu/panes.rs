@@ -1,0 +1,290 @@
+//! Water that stands against panes of glass, compared with the CPU twin.
+
+use glam::{DMat3, DVec2, DVec3};
+use whitewater::water::{Bed, Exit, Fresnel, Medium, Pane, Wavelets};
+
+use crate::composite::{SKY, Sky, twin_settings};
+use crate::reduce::wide;
+use crate::reference::composite::{self as twin, Inputs, exit_about, scene_at};
+use crate::reference::panes::{self, Flat};
+use crate::reference::surface::Surfaces;
+use crate::reference::{Image, View, is_surface};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::support::tolerance::U;
+
+const SPACING: f64 = 0.2 / 0.656;
+/// Sides of the box of water in spacings.
+const BOX: [f64; 3] = [14.0, 8.0, 12.0];
+/// Absorption per scene unit.
+const ABSORBED: [f32; 3] = [0.6, 0.3, 0.1];
+
+/// The three axes of the box in the twin's eye space: two level ones, which point towards the eye's
+/// side, and up; and the middle of the box.
+fn axes() -> (DMat3, DVec3) {
+    let turned = DMat3::from_rotation_x(0.5) * DMat3::from_rotation_y(-0.7);
+    (turned, DVec3::new(0.1, -0.2, -6.5))
+}
+
+/// Eye-space x, y and depth of a point.
+fn seen(p: DVec3) -> [f32; 3] {
+    [p.x, p.y, -p.z].map(|x| x as f32)
+}
+
+/// A box of water behind two panes that meet in an edge towards the eye. The particles' outermost
+/// layers lie about the panes, so some of their spheres stick out. The level top is free.
+fn tank(lens: Lens) -> Shot {
+    let size = extent(97, 61);
+    let (axes, middle) = axes();
+    let mut random = Random(5);
+    let half = DVec3::from(BOX) * 0.5 * SPACING;
+    let mut points = Vec::new();
+    let count = BOX.map(|n| n as usize);
+    for x in 0..=count[0] {
+        for y in 0..=count[1] {
+            for z in 0..=count[2] {
+                let mut jitter = || f64::from(random.between(-0.2, 0.2)) * SPACING;
+                let at = DVec3::new(x as f64, y as f64, z as f64) * SPACING - half;
+                let at = at + DVec3::new(jitter(), jitter(), jitter());
+                points.push(seen(middle + axes * at));
+            }
+        }
+    }
+    let mut shot = Shot::new(size, lens, 0.2, &points);
+    let water = &mut shot.settings.water;
+    water.medium = Medium::Physical { absorption: ABSORBED, scattering: [0.0; 3] };
+    water.bed = Bed::Source;
+    let corner = |x: f64, y: f64, z: f64| middle + axes * (half * DVec3::new(x, y, z));
+    // They end a spacing above the water.
+    let top = 1.0 + SPACING / half.y;
+    let panes = [
+        [corner(1.0, -1.0, 1.0), corner(1.0, -1.0, -1.0), corner(1.0, top, 1.0)],
+        [corner(-1.0, -1.0, 1.0), corner(1.0, -1.0, 1.0), corner(-1.0, top, 1.0)],
+    ];
+    shot.panes = panes.map(|corners| pane(&shot, corners)).to_vec();
+    shot
+}
+
+/// A pane from three corners in eye space, with the water on the far side of it.
+fn pane(shot: &Shot, corners: [DVec3; 3]) -> Pane {
+    let points = scenes::world(&shot.camera, &corners.map(seen));
+    let [corner, a, b] = [0, 1, 2].map(|i| DVec3::from(points[i].map(f64::from)));
+    let eye = shot.view(shot.size).view.inverse().transform_point3(DVec3::ZERO);
+    let edges = [a - corner, b - corner];
+    let towards = edges[0].cross(edges[1]).dot(eye - corner) > 0.0;
+    let edges = if towards { edges } else { [edges[1], edges[0]] };
+    Pane { corner: points[0], edges: edges.map(|edge| edge.as_vec3().to_array()) }
+}
+
+/// The panes of a shot for the twin.
+fn of_twin(shot: &Shot, view: &View) -> Vec<panes::Pane> {
+    let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+    let eye = |pane: &Pane| {
+        let edges = pane.edges.map(wide);
+        panes::Pane {
+            corner: view.view.transform_point3(wide(pane.corner)),
+            edges: edges.map(|edge| view.view.transform_vector3(edge)),
+            away: view.view.transform_vector3(edges[0].cross(edges[1])).normalize(),
+        }
+    };
+    shot.panes.iter().map(eye).collect()
+}
+
+/// Largest difference of neighbouring texels of the scene.
+fn change(shot: &Shot) -> f64 {
+    let wide = shot.size.width as usize;
+    let texels = shot.color.iter().enumerate().filter(|(i, _)| (i + 1) % wide > 0);
+    let next =
+        texels.filter_map(|(i, c)| Some((c, shot.color.get(i + 1)?, shot.color.get(i + wide)?)));
+    let most = |(c, right, below): (&[f32; 4], &[f32; 4], &[f32; 4])| {
+        (0..3).map(|k| (right[k] - c[k]).abs().max((below[k] - c[k]).abs())).fold(0.0, f32::max)
+    };
+    f64::from(next.map(most).fold(0.0, f32::max))
+}
+
+/// What a pixel became.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Empty,
+    Free,
+    Undecided,
+    Flush,
+}
+
+/// Compares the pixels that are flush with a pane with the twin's, and all others with the picture
+/// without panes. Returns what each pixel is, and the number of flush pixels before and behind their
+/// pane.
+fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot) -> (Image<Kind>, [usize; 2]) {
+    let drawn: Drawn = rig.draw(shot);
+    let mut bare = shot.clone();
+    bare.panes.clear();
+    let free = rig.draw(&bare);
+    let (view, level) = (shot.view(shot.size), rig.config.smoothing_level);
+    let mut settings = twin_settings(shot, &view);
+    let Fresnel::Schlick { f0 } = shot.settings.water.fresnel else { panic!("{name}: no index") };
+    let root = f64::from(f0).sqrt();
+    settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some((1.0 + root) / (1.0 - root));
+    let (width, height) = (shot.size.width as usize, shot.size.height as usize);
+    let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
+    let color = Image::from_vec(width, height, color).expect("the output's size");
+    let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
+    let (thickness, scene) = (drawn.thickness.map(|t| f64::from(*t)), shot.scene_eye());
+    let inputs = Inputs {
+        depth: &depth,
+        smoothed: &smoothed,
+        level,
+        thickness: &thickness,
+        thickness_level: rig.config.thickness_level,
+        scene_color: &color,
+        scene_depth: &scene,
+        noise: None,
+    };
+    let bits = rig.gpu.limits().sub_texel_precision_bits;
+    let texel = 1.0 / f64::from(1 << bits);
+    let change = change(shot);
+    let own = of_twin(shot, &view);
+    let surfaces = Surfaces::new(&inputs, &settings, &view);
+    let mut sides = [0; 2];
+    let kinds = Image::from_fn(width, height, |x, y| (x, y)).data.into_iter().map(|(x, y)| {
+        let out = drawn.output.at(x, y).map(f64::from);
+        if !is_surface(depth.at(x, y)) {
+            assert_eq!(drawn.output.at(x, y), free.output.at(x, y), "{name}: dry ({x}, {y})");
+            return Kind::Empty;
+        }
+        let mut found = surfaces.at(x, y).expect("a surface");
+        let (flat, margin) = panes::flush(&own, &found, SPACING);
+        let undecided = 16.0 * U * (settings.falloff * settings.radius - found.position.z);
+        // Normals are quotients of differences of depths, whose error is that of the depth over the
+        // width of a pixel.
+        let pixel_wide = view.slope_step().abs().min_element() * -found.position.z;
+        let rough = 64.0 * U * (1.0 - found.position.z / pixel_wide);
+        if found.parts.margin <= undecided || margin < rough {
+            return Kind::Undecided;
+        }
+        let Some(Flat { position, gained, normal }) = flat else {
+            assert_eq!(drawn.output.at(x, y), free.output.at(x, y), "{name}: free ({x}, {y})");
+            return Kind::Free;
+        };
+        sides[usize::from(gained > 0.0)] += 1;
+        let relief = found.slope;
+        let full = (found.parts.full + gained).max(0.0);
+        let torn = full.min(2.0 * SPACING);
+        found.lens = torn + (full - torn) * found.parts.found;
+        (found.position, found.normal, found.slope) = (position, normal, relief);
+        found.room = (inputs.scene(x, y) + position.z).max(0.0);
+        found.thickness = full.min(found.room);
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let at = twin::look_up(&inputs, &settings, &found, &view, pixel);
+        let (at, _) = twin::cut_look_up(&inputs, -position.z, pixel, at);
+        let behind = scene_at(&inputs, at);
+        // Thickness and both depths have errors of a few roundings of the depth.
+        let error = 64.0 * U * (full - position.z);
+        let share = (error / full.max(error)).min(0.5);
+        let turned = rough + 64.0 * U * (found.parts.full + settings.radius) / pixel_wide;
+        let env = |_| Sky::Even.radiance(DVec3::Y);
+        let (exit, light, path, sure) =
+            exit_about(&inputs, &settings, &found, &view, (x, y), behind, env, (turned, share));
+        if !sure {
+            return Kind::Undecided;
+        }
+        let expected = twin::through(&settings.medium, exit.light, exit.path);
+        let moved = texel + share * at.distance(pixel) + 64.0 * U * width as f64;
+        for i in 0..3 {
+            let along = position.length() / -position.z;
+            let length = path + error * along + 64.0 * U * exit.path;
+            let bound = light[i]
+                + 4.0 * change * (moved + 2.0 * texel)
+                + f64::from(ABSORBED[i]) * exit.light[i] * length
+                + 64.0 * U * (1.0 + exit.light[i]);
+            let off = (out[i] - expected[i]).abs();
+            assert!(
+                off <= bound,
+                "{name}: ({x}, {y}) {i}: {} for {}, {bound}",
+                out[i],
+                expected[i]
+            );
+        }
+        Kind::Flush
+    });
+    let kinds = Image::from_vec(width, height, kinds.collect()).expect("the size");
+    (kinds, sides)
+}
+
+fn count(kinds: &Image<Kind>, kind: Kind) -> usize {
+    kinds.data.iter().filter(|found| **found == kind).count()
+}
+
+/// Two panes in an edge, through every lens and with every way through the water.
+#[test]
+fn water_behind_panes_is_the_twins() {
+    let gpu = Gpu::shared();
+    for (lens, level, exit) in LENSES.map(|lens| (lens, 1, Exit::Straight)).into_iter().chain([
+        (Lens::Standard, 0, Exit::TwoInterfaces),
+        (Lens::LeftHanded, 2, Exit::TwoInterfaces),
+    ]) {
+        let name = format!("panes-{lens:?}-{level}");
+        let shot = tank(lens);
+        let config = config(shot.size).with(|it| {
+            it.smoothing_level = level;
+            it.exit = exit;
+        });
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        let (kinds, sides) = check(&name, &mut rig, &shot);
+        let [free, undecided, flush] =
+            [Kind::Free, Kind::Undecided, Kind::Flush].map(|kind| count(&kinds, kind));
+        if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+            eprintln!("{name}: {free} free, {undecided} undecided, {flush} flush, {sides:?}");
+        }
+        assert!(free > 100 && flush > 300 && sides.iter().all(|n| *n > 50), "{name}: {sides:?}");
+        assert!(25 * undecided <= free + flush, "{name}: {undecided} undecided");
+    }
+}
+
+/// From the side of the water, and with the eye behind it, a pane changes nothing.
+#[test]
+fn panes_seen_from_the_water_change_nothing() {
+    let gpu = Gpu::shared();
+    let mut shot = tank(Lens::Standard);
+    let mut rig = Rig::new(&gpu, &config(shot.size));
+    let with = rig.draw(&shot);
+    for pane in &mut shot.panes {
+        pane.edges.swap(0, 1);
+    }
+    let turned = rig.draw(&shot);
+    shot.panes.clear();
+    let without = rig.draw(&shot);
+    compare::same_color("panes-turned", &turned.output, &without.output);
+    assert!(with.output.data != without.output.data);
+}
+
+/// Water that is flush with a pane has neither surface noise nor small waves.
+#[test]
+fn water_at_panes_has_no_waves() {
+    let gpu = Gpu::shared();
+    let mut shot = tank(Lens::Standard);
+    let still = config(shot.size).with(|it| it.noise = Some(1));
+    let mut rig = Rig::new(&gpu, &still);
+    // Up is towards the eye, so waves would run over the panes.
+    let up = shot.view(shot.size).view.inverse().transform_vector3(axes().0 * DVec3::ONE);
+    shot.settings.up = up.as_vec3().to_array();
+    shot.settings.water.wavelets.slope = 0.0;
+    shot.settings.noise.weight = 0.0;
+    shot.settings.noise.foam = 0.0;
+    let (kinds, _) = check("panes-still", &mut rig, &shot);
+    let calm = rig.draw(&shot);
+    shot.settings.water.wavelets = Wavelets::default();
+    shot.settings.water.wavelets.slope = 0.1;
+    shot.settings.noise.weight = 0.5;
+    shot.settings.noise.foam = 0.5;
+    let rough = rig.draw(&shot);
+    let mut moved = 0;
+    for (i, kind) in kinds.data.iter().enumerate() {
+        let same = calm.output.data[i] == rough.output.data[i];
+        assert!(same || *kind != Kind::Flush, "pixel {i}");
+        moved += usize::from(!same);
+    }
+    assert!(count(&kinds, Kind::Flush) > 300 && moved > 100, "{moved} moved");
+}
