@@ -249,7 +249,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
 #include "met_water.glsl"
 
 // The sheet (layer of water) with this front surface and the thickness `t` along z. `ripple` is the surface noise and
-// its slope per pixel. `flat_face`: the surface is flush with a pane and has no waves. `marched` allows a march for reflections of the scene, if MIRROR enables it.
+// its slope per pixel. `flat_face`: the surface is flush with a pane, and has neither waves nor a reflection of its
+// own. `marched` allows a march for reflections of the scene, if MIRROR enables it.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool flat_face, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;

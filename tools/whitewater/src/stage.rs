@@ -267,8 +267,10 @@ pub fn basin_round(
     };
     // Panes hold water that is higher than the walls; all panes have one height.
     let foot = |side: &Side| top_of(towards_eye(side)) + slab;
+    // Water that rests above a wall needs glass, water that splashes over it only where it is high.
     let holds = |side: &Side| {
-        side.reach > foot(side) + 4.0 * spacing || side.level > foot(side) + 0.5 * spacing
+        side.reach.min(side.level) > foot(side) + 0.5 * spacing
+            || side.reach > foot(side) + 4.0 * spacing
     };
     let held = sides.iter().filter(|side| holds(side));
     let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
@@ -478,6 +480,11 @@ mod tests {
             .collect()
     }
 
+    /// The lower part of the block, which the near walls hold.
+    fn shallow() -> Vec<[f32; 3]> {
+        block(false).into_iter().filter(|p| p[1] < 0.35).collect()
+    }
+
     #[test]
     fn water_that_fills_a_box_gets_a_basin() {
         let eye = Vec3::new(9.0, 5.0, 9.0);
@@ -582,11 +589,11 @@ mod tests {
             };
             panes.map(top).collect()
         };
-        assert!(edges(&block(false)).is_empty(), "the walls hold it");
+        assert!(edges(&shallow()).is_empty(), "the walls hold it");
         // `rows` rows of particles on all of the wall towards the camera, the highest at a height of 2.
         let on_wall = |rows: usize| {
             let at = |i: usize| [1.9, 2.0 - 0.1 * (i / 30) as f32, 0.1 * (i % 30) as f32];
-            let mut all = block(false);
+            let mut all = shallow();
             all.extend((0..30 * rows).map(at));
             all
         };
@@ -647,7 +654,7 @@ mod tests {
     fn panes_hold_the_dam_that_falls() {
         let dam: Vec<_> =
             (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
-        let pool = block(false);
+        let pool = shallow();
         let frames = vec![&pool[..]; 12];
         let top = |frames: &[&[[f32; 3]]]| {
             let bounds = frames.iter().filter_map(|frame| Bounds::of_bulk(frame));
