@@ -348,6 +348,8 @@ impl FrameUniforms {
             Submerged::Water => None,
             Submerged::Falloff { depth, n, m } => Some([depth, n, m, 0.0]),
         };
+        // The thesis has no panes.
+        let panes = if water.compositing == Compositing::Source { &[] } else { frame.panes };
         let noise_level = config.noise.unwrap_or(0);
         let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.toward()).normalize_or_zero();
@@ -376,7 +378,7 @@ impl FrameUniforms {
             ],
             slope: lens.slope(full, 1.0).to_array(),
             thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
-            texel: [c_x, c_y, water.wavelets.amplitude(), frame.panes.len() as f32],
+            texel: [c_x, c_y, water.wavelets.amplitude(), panes.len() as f32],
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
@@ -524,7 +526,7 @@ impl FrameUniforms {
             bed: wet,
             bed_light,
             wavelets: water.wavelets.sines(frame.settings.upward()),
-            panes: panes::rows(frame.panes, lens.view),
+            panes: panes::rows(panes, lens.view),
         }
     }
 }

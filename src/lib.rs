@@ -65,7 +65,7 @@
 //! | `shadow` | with `Config.shadow`: the sun's depth map with its matrix, any size in any frame, or a mask over the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `light_volume` | with `Config.light_map_size`: the sphere in which water and foam cast shadows and caustics | | |
 //! | `previous` | with `Config.motion`: the camera of the previous frame and the seconds since | | |
-//! | `panes` | panes of glass that water is flush with | | |
+//! | `panes` | panes of glass that the water stands against ([`water::Pane`]), up to 8; optional | | |
 //! | `camera` | view and projection: perspective, standard or reversed depth, finite or infinite, off-axis, looking down −z or +z | | |
 //!
 //! # Motion vectors

@@ -127,7 +127,8 @@ vec2 prism_offset(vec2 pixel, float front, float beyond) {
     return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));
 }
 
-// Returns the light that enters the front sheet (layer of water) from behind. `behind`: the scene's colour as
+// Returns the light that enters the front sheet (layer of water) from behind. `surface`: the particles' front surface,
+// which at a pane of glass is not that of the sheet. `behind`: the scene's colour as
 // refracted by the front surface alone. `covers`: there is a second sheet behind this one. `pool`: how far the back
 // sheet touches the scene, 0 to 1. With 1 the ray that leaves the front sheet shows `behind`, which includes the
 // water of the back sheet, because a march would find the dry scene.
@@ -139,7 +140,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     vec3 from = sheet.at + inside * result.path;
 
     Surface far = surface;
-    far.z += sheet.thick;
+    far.z = sheet.thick - sheet.at.z;
     vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
     vec2 thicker = vec2(0.0);
     // Loops instead of branches, for CPU drivers (docs/performance.md).

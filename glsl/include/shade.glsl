@@ -7,8 +7,8 @@
 // Reads: smoothed, levels, depth, thickness, sheets, boundaries, noise, scene colour and depth, environment, depth,
 // thickness and drift of foam, spray, depth, thickness and light of whitewater particles, depth and colour of bubble
 // foam, contact foam, inputs of sunlight.glsl.
-// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl,
-// sunlight.glsl, shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl,
+// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, panes.glsl, surface_foam_texels.glsl,
+// beside.glsl, sunlight.glsl, shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl,
 // gradient_noise.glsl.
 
 // Resolution of the thickness: 0: full, 1: that of the smoothing, 2: another.
@@ -738,14 +738,12 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     // Water thinner than one layer of particles is a drop: it has the slope of its particle's sphere, unsmoothed.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
-    // The far surface of the water stays where it is, and so does its slope, the sum of those of the particles' front
-    // surface and of the thickness.
-    Surface relief = surface;
+    Surface particles = surface;
     bool at_pane = flush(surface, slope);
-    float gap = relief.z - surface.z;
-    relief.z = surface.z;
-    t = max(t + gap, 0.0);
-    all = max(all + gap, 0.0);
+    // The water's far surface stays where it is.
+    float filled = max(particles.z - surface.z, -t);
+    t += filled;
+    all.x = max(all.x + filled, 0.0);
     face = Face(surface.z, 0.0, vec3(0.0));
     // `ripple`, the surface noise, is only for the front sheet (layer of water): it belongs to the particles there.
     vec3 ripple = NOISE == 1u && !at_pane ? ripple_at(pixel, front, threshold) : vec3(0.0);
@@ -760,6 +758,9 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         // back sheet. Of the front sheet only the foam is then drawn, with the water in this foam. With SHEETS = 1
         // `past` is false at compile time, so a CPU driver skips the code that depends on it.
         past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
+        // Of the water that fills the gap to a pane, foam has that part before it which lies before its own depth.
+        float before = filled > 0.0 ? clamp(foam.depth - surface.z, 0.0, filled) : filled;
+        all.y = past ? all.y : max(all.y + before, 0.0);
         // Foam behind the air between two sheets belongs to the back sheet.
         if (covers && behind_boundary) {
             back = among(foam, share.y, back);
@@ -789,7 +790,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     bool prism = EXIT > 0u && SHEETS == 2u && covers && back.wet > 0.0 && !by_source();
     while (prism) {
-        offset = bent(offset + back.wet * prism_offset(pixel, surface.z, beyond));
+        offset = bent(offset + back.wet * prism_offset(pixel, particles.z, beyond));
         prism = false;
     }
     vec3 c = refracted(pixel, offset, max(surface.z, beyond));
@@ -798,7 +799,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
     while (open) {
-        way = exit_of(sheet, relief, pixel, c, covers, covers ? back.wet : 0.0);
+        way = exit_of(sheet, particles, pixel, c, covers, covers ? back.wet : 0.0);
         c = way.scene;
         sheet.path = way.path;
         open = false;

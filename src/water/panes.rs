@@ -11,8 +11,12 @@ pub const MAX_PANES: usize = 8;
 /// A flat pane of glass, or another clear flat wall, that water stands against and is seen through: a parallelogram.
 /// The front surface of the water near a pane is drawn flat, in the pane's plane. (Without the pane it would be a
 /// relief of particles.) "Near" means within 1.5 spacings, and within half a spacing where the water's surface is at
-/// right angles to the pane. If a ray meets water that is near two panes, the last one counts. The glass itself is the
-/// host's: water behind it has no reflection of its own, because what one sees in a pane is reflected by its front.
+/// right angles to the pane. If a ray meets water that is near two panes, the last one counts.
+///
+/// The renderer does not draw the glass. Water at a pane has neither reflection nor highlight, because the front of
+/// the glass reflects instead. Only the picture is flush: layers such as `water.depth`, motion vectors, shadows and
+/// caustics keep the particles' surface, and so does the back one of two layers of water. With the thesis' way of
+/// compositing, panes have no effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pane {
     /// A corner, world space, finite.

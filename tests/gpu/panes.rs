@@ -1,7 +1,7 @@
 //! Water that stands against panes of glass, compared with the CPU twin.
 
 use glam::{DMat3, DVec2, DVec3};
-use whitewater::water::{Bed, Exit, Fresnel, Medium, Pane, Wavelets};
+use whitewater::water::{Bed, Compositing, Exit, Fresnel, Medium, Pane, Shading, Wavelets};
 
 use crate::composite::{SKY, Sky, twin_settings};
 use crate::reduce::wide;
@@ -216,19 +216,21 @@ fn count(kinds: &Image<Kind>, kind: Kind) -> usize {
     kinds.data.iter().filter(|found| **found == kind).count()
 }
 
-/// Two panes in an edge, through every lens and with every way through the water.
+/// Two panes that meet in an edge, through every lens; with both ways of shading, each with refraction
+/// at the front surface alone and at both.
 #[test]
 fn water_behind_panes_is_the_twins() {
     let gpu = Gpu::shared();
-    for (lens, level, exit) in LENSES.map(|lens| (lens, 1, Exit::Straight)).into_iter().chain([
-        (Lens::Standard, 0, Exit::TwoInterfaces),
-        (Lens::LeftHanded, 2, Exit::TwoInterfaces),
-    ]) {
+    let both =
+        [(Lens::Standard, 0, Exit::TwoInterfaces), (Lens::LeftHanded, 2, Exit::TwoInterfaces)];
+    let all = LENSES.map(|lens| (lens, 1, Exit::Straight)).into_iter().chain(both);
+    for (turn, (lens, level, exit)) in all.enumerate() {
         let name = format!("panes-{lens:?}-{level}");
         let shot = tank(lens);
         let config = config(shot.size).with(|it| {
             it.smoothing_level = level;
             it.exit = exit;
+            it.composite = Some([Shading::Compute, Shading::Raster][turn % 2]);
         });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
@@ -243,9 +245,10 @@ fn water_behind_panes_is_the_twins() {
     }
 }
 
-/// From the side of the water, and with the eye behind it, a pane changes nothing.
+/// Panes seen from the water's side change nothing, and neither does a pane behind the eye that water
+/// before the eye is near to. The thesis has no panes.
 #[test]
-fn panes_seen_from_the_water_change_nothing() {
+fn panes_of_no_water_change_nothing() {
     let gpu = Gpu::shared();
     let mut shot = tank(Lens::Standard);
     let mut rig = Rig::new(&gpu, &config(shot.size));
@@ -258,6 +261,29 @@ fn panes_seen_from_the_water_change_nothing() {
     let without = rig.draw(&shot);
     compare::same_color("panes-turned", &turned.output, &without.output);
     assert!(with.output.data != without.output.data);
+
+    let points: Vec<_> =
+        (0..40).map(|i| [0.1 * (i % 8) as f32 - 0.35, 0.1 * (i / 8) as f32, 0.4]).collect();
+    let mut near = Shot::new(shot.size, Lens::Standard, 0.2, &points);
+    let without = rig.draw(&near);
+    assert!(without.depth.data.iter().any(|z| *z < 0.25), "within reach");
+    // It faces the eye, and its plane lies behind the eye.
+    let corners = [[-9.0, -9.0, 0.02], [9.0, -9.0, 0.02], [-9.0, 9.0, 0.02]].map(DVec3::from);
+    near.panes.push(pane(&near, corners));
+    for turn in 0..2 {
+        compare::same_color(
+            &format!("panes-behind-{turn}"),
+            &rig.draw(&near).output,
+            &without.output,
+        );
+        near.panes[0].edges.swap(0, 1);
+    }
+
+    let mut thesis = tank(Lens::Standard);
+    thesis.settings.water.compositing = Compositing::Source;
+    let with = rig.draw(&thesis);
+    thesis.panes.clear();
+    compare::same_color("panes-thesis", &with.output, &rig.draw(&thesis).output);
 }
 
 /// Water that is flush with a pane has neither surface noise nor small waves.

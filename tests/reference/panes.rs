@@ -5,8 +5,8 @@ use glam::{DMat3, DVec3};
 
 use super::surface::Surface;
 
-/// Distance in spacings up to which water is flush: of a surface at right angles to the panes and of
-/// one that is parallel to a pane.
+/// Distance in spacings up to which water is flush: of a surface at right angles to the pane and of
+/// one that is parallel to it.
 const NEAR: [f64; 2] = [0.5, 1.5];
 
 /// A pane in eye space.
@@ -46,8 +46,6 @@ impl Pane {
 /// limit: lengths in spacings, positions on a pane in its edges.
 pub fn flush(panes: &[Pane], surface: &Surface, spacing: f64) -> (Option<Flat>, f64) {
     let Surface { position, normal, .. } = *surface;
-    let upright = panes.iter().map(|pane| pane.away.dot(normal)).fold(0.0, f64::max);
-    let limit = NEAR[0] + (NEAR[1] - NEAR[0]) * upright;
     let mut margin = f64::INFINITY;
     let mut on_pane = |at: DVec3| {
         let off = [at.x, 1.0 - at.x, at.y, 1.0 - at.y].into_iter().fold(f64::INFINITY, f64::min);
@@ -58,6 +56,7 @@ pub fn flush(panes: &[Pane], surface: &Surface, spacing: f64) -> (Option<Flat>, 
     let mut near = f64::INFINITY;
     for pane in panes.iter().filter(|pane| pane.away.dot(position) < 0.0) {
         let (hit, own) = (pane.hit(position), pane.place(position));
+        let limit = NEAR[0] + (NEAR[1] - NEAR[0]) * pane.away.dot(normal).max(0.0);
         near = near.min((own.z.abs() / spacing - limit).abs());
         if hit.dot(position) <= 0.0 || own.z.abs() >= limit * spacing {
             continue;

@@ -316,7 +316,9 @@ impl Scene {
         }
         for (i, FilePane { corner, edges }) in file.panes.into_iter().enumerate() {
             let pane = Pane { corner, edges };
-            pane.check().map_err(|why| format!("panes[{i}]: found {why}: {pane:?}"))?;
+            pane.check().map_err(|found| {
+                format!("panes[{i}]: expected finite numbers and edges that are not parallel, found {found}")
+            })?;
             scene.panes.push(pane);
         }
         for part in file.cylinders {
@@ -448,6 +450,22 @@ mod tests {
         "ground":{"y":-0.1,"material":"ground"},"fluid":{"pool_level":0.2}}"#;
 
     #[test]
+    fn json_lists_panes() {
+        let one = r#"{"corner":[1,2,3],"edges":[[1,0,0],[0,2,0.5]]}"#;
+        let with = |n: usize| {
+            let list = vec![one; n].join(",");
+            JSON.replacen("{\"boxes\"", &format!("{{\"panes\":[{list}],\"boxes\""), 1)
+        };
+        let scene = Scene::parse_json(with(1).as_bytes()).expect("good");
+        let edges = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.5]];
+        assert_eq!(scene.panes, [Pane { corner: [1.0, 2.0, 3.0], edges }]);
+        let scene = Scene::parse_json(with(MAX_PANES).as_bytes()).expect("good");
+        assert_eq!(scene.panes.len(), MAX_PANES);
+        let why = Scene::parse_json(with(MAX_PANES + 1).as_bytes()).expect_err("too many");
+        assert!(why.contains("8 at most, found 9"), "{why}");
+    }
+
+    #[test]
     fn json_lines_the_basin() {
         let scene = Scene::parse_json(JSON.as_bytes()).expect("good");
         let lined: Vec<_> = scene
@@ -513,7 +531,7 @@ mod tests {
             (
                 "{\"boxes\"",
                 "{\"panes\":[{\"corner\":[0,0,0],\"edges\":[[1,0,0],[2,0,0]]}],\"boxes\"",
-                "panes[0]: found edges without an area",
+                "panes[0]: expected finite numbers and edges that are not parallel, found edges without",
             ),
         ] {
             let why = Scene::parse_json(JSON.replacen(from, to, 1).as_bytes()).expect_err(from);

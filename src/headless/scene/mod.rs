@@ -63,7 +63,8 @@ pub struct Scene {
     /// of wood, has a fixed size in metres. (Lengths in [`Pattern`] are in world units.) `None`, the default: 1.
     pub metre: Option<f32>,
     /// Panes of glass that the water stands against, at most [`MAX_PANES`](crate::water::MAX_PANES). They are static
-    /// and not drawn; edges and mounts can be [`meshes`](Self::meshes) or [`backdrop`](Self::backdrop).
+    /// and not drawn, nor are reflections on them; edges and mounts can be [`meshes`](Self::meshes) or
+    /// [`backdrop`](Self::backdrop).
     pub panes: Vec<Pane>,
 }
 

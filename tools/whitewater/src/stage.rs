@@ -120,7 +120,7 @@ impl Side {
     fn pane(&self, low: Vec3, high: Vec3) -> Pane {
         let mut corner = low;
         corner[self.axis] = self.at;
-        // Of the axes x, y and z, the product of the next two is each one, which points out of the box at its far end.
+        // The vector product of the next two axes is this axis, which points out of the box at its high end.
         let mut edges = [1, 2].map(|next| {
             let axis = (self.axis + next) % 3;
             let mut edge = Vec3::ZERO;
@@ -273,7 +273,9 @@ pub fn basin_round(
             || side.reach > foot(side) + 4.0 * spacing
     };
     let held = sides.iter().filter(|side| holds(side));
-    let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
+    // The upper edge of the glass is above its mount.
+    let upper = |side: &Side| (side.reach + spacing + 2.0 * edge).max(foot(side) + 6.0 * edge);
+    let head = held.map(upper).fold(floor, f32::max);
     let sheet = 1.0e-3 * longest;
     let (from, to) = (low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet);
     meshes.push(cuboid("basin floor", from, to, &tiles, &[3]));
@@ -606,8 +608,8 @@ mod tests {
         assert!(edges(&on_wall(1)).is_empty(), "drops");
     }
 
-    /// Each drawn pane is handed to the renderer as well: in the plane of its edges, from the floor to its upper edge,
-    /// with its normal out of the basin.
+    /// Each drawn pane is handed to the renderer as well: in the plane of the wall's inner face, from the floor to its
+    /// upper edge, with its normal out of the basin.
     #[test]
     fn panes_face_out_of_the_basin() {
         let dam: Vec<_> =
@@ -632,6 +634,8 @@ mod tests {
                 normal
             });
             assert_eq!(normals.collect::<Vec<_>>(), wanted);
+            let mounts = scene.meshes.iter().filter(|mesh| mesh.name == "pane foot");
+            assert_eq!(mounts.count(), wanted.len());
         }
     }
 
@@ -646,6 +650,25 @@ mod tests {
         let scene = basin_round(&[&tank], &bounds, 1.0, from, SetArg::Pool, &[]).unwrap();
         assert_eq!(scene.panes.len(), 2);
         assert!(scene.backdrop.iter().any(|mesh| mesh.name == "pane edge"));
+        // Fine particles, which rest above the walls by less than the glass is thick: its edges stay right side out.
+        let (fine, wide) = (2.0e-3, 2.95);
+        let round = (0..1475).flat_map(|i| {
+            let at = fine * i as f32;
+            [[at, 0.0], [at, wide], [0.0, at], [wide, at]]
+        });
+        let rows = [0.0, 0.35, 0.352, 0.354, 0.356];
+        let thin: Vec<_> = round.flat_map(|[x, z]| rows.map(|y| [x, y, z])).collect();
+        let bounds = Bounds::of_bulk(&thin).unwrap();
+        let from = (Vec3::new(9.0, 5.0, 9.0), false);
+        let scene = basin_round(&[&thin], &bounds, fine, from, SetArg::Pool, &[]).unwrap();
+        assert_eq!(scene.panes.len(), 2);
+        for mesh in scene.backdrop.iter().filter(|mesh| mesh.name == "pane edge") {
+            let points = mesh.positions.iter().map(|p| Vec3::from(*p));
+            let middle = points.clone().sum::<Vec3>() / mesh.positions.len() as f32;
+            for (p, normal) in points.zip(&mesh.normals) {
+                assert!((p - middle).dot(Vec3::from(*normal)) > 0.0, "{p} {normal:?}");
+            }
+        }
     }
 
     /// If a high dam of water stands in only one frame, the first or another, the panes of glass on the basin's walls
