@@ -14,6 +14,7 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::U;
+use crate::surface_foam::Foamy;
 
 const SPACING: f64 = 0.2 / 0.656;
 /// Sides of the box of water in spacings.
@@ -313,4 +314,75 @@ fn water_at_panes_has_no_waves() {
         moved += usize::from(!same);
     }
     assert!(count(&kinds, Kind::Flush) > 300 && moved > 100, "{moved} moved");
+}
+
+/// Foam before the glass is not tinted by the water that fills the gap between the glass and the
+/// particles.
+#[test]
+fn foam_before_panes_is_not_under_water() {
+    let gpu = Gpu::shared();
+    let mut tank = tank(Lens::Standard);
+    let mut rig = Rig::new(&gpu, &config(tank.size).with(|it| it.surface_foam = true));
+    let look = &mut tank.settings.surface_foam;
+    (look.extinction, look.pattern, look.lace, look.aeration) = (1.0e3, 0.0, 0.0, 0.0);
+    let water = tank.positions.len();
+    let wall = scenes::block(7, 0.1, [14, 10, 1], [-0.7, -0.5, 1.5]);
+    let wall = scenes::world(&tank.camera, &wall);
+    let mut draw = |foam: bool, panes: bool| {
+        let mut case = Foamy::new(tank.size, Lens::Standard, 0.0);
+        case.shot = tank.clone();
+        if !panes {
+            case.shot.panes.clear();
+        }
+        case.amounts = vec![[0.0; 2]; water];
+        if foam {
+            case.shot.positions.extend(&wall);
+            case.amounts.resize(water + wall.len(), [1.0, 1.0]);
+        }
+        case.velocities = vec![[0.0; 3]; case.amounts.len()];
+        case.ids = None;
+        case.draw(&mut rig).output
+    };
+    let [bare, at_panes, foam, foam_at_panes] =
+        [(false, false), (false, true), (true, false), (true, true)].map(|(a, b)| draw(a, b));
+    let mut flush = 0;
+    // Pixels before which the wall certainly is: it reaches 24 pixels to the sides of the middle.
+    for (x, y) in (18..43).flat_map(|y| (33..64).map(move |x| (x, y))) {
+        flush += usize::from(bare.at(x, y) != at_panes.at(x, y));
+        let (a, b) = (foam.at(x, y), foam_at_panes.at(x, y));
+        // Less than e^-10 of what is behind the wall comes through.
+        let off = (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max);
+        assert!(off < 1.0e-4, "({x}, {y}): {a:?}, {b:?}");
+    }
+    assert!(flush > 300, "{flush}");
+}
+
+/// Where a second layer of water makes no difference, it makes none at panes.
+#[test]
+fn two_layers_are_flush_as_one_is() {
+    let gpu = Gpu::shared();
+    let mut shot = tank(Lens::Standard);
+    // Drops before the water, so that its tiles are shaded for two layers.
+    let drops = [[-0.4, 0.1, 2.0], [0.4, 0.1, 2.0], [0.0, -0.4, 2.0]];
+    shot.positions.extend(scenes::world(&shot.camera, &drops));
+    let mut bare = shot.clone();
+    bare.panes.clear();
+    for exit in [Exit::Straight, Exit::TwoInterfaces] {
+        let [one, two] = [1, 2].map(|sheets| {
+            let config = config(shot.size).with(|it| {
+                it.sheets = sheets;
+                it.exit = exit;
+            });
+            let mut rig = Rig::new(&gpu, &config);
+            [&bare, &shot].map(|shot| rig.draw(shot).output.data)
+        });
+        let mut flush = 0;
+        for i in 0..one[0].len() {
+            if one[0][i] == two[0][i] {
+                assert_eq!(one[1][i], two[1][i], "{exit:?}: pixel {i}");
+                flush += usize::from(one[0][i] != one[1][i]);
+            }
+        }
+        assert!(flush > 500, "{exit:?}: {flush}");
+    }
 }
