@@ -194,6 +194,44 @@ impl std::ops::AddAssign for Cases {
     }
 }
 
+/// Inputs of the twin, read back from a drawn frame.
+pub struct Layers {
+    pub depth: Image<f64>,
+    smoothed: Image<f64>,
+    pub thickness: Image<f64>,
+    color: Image<[f64; 4]>,
+    scene: Image<f64>,
+    noise: Option<(Image<f64>, Look)>,
+}
+
+impl Layers {
+    pub fn new(drawn: &Drawn, shot: &Shot) -> Self {
+        let (width, height) = (shot.size.width as usize, shot.size.height as usize);
+        let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
+        Self {
+            depth: wide(&drawn.depth),
+            smoothed: wide(&drawn.surface),
+            thickness: drawn.thickness.map(|t| f64::from(*t)),
+            color: Image::from_vec(width, height, color).expect("the output's size"),
+            scene: shot.scene_eye(),
+            noise: drawn.noise.as_ref().map(|image| (wide(image), noise_look(shot, image))),
+        }
+    }
+
+    pub fn inputs(&self, level: u32, thickness_level: u32) -> Inputs<'_> {
+        Inputs {
+            depth: &self.depth,
+            smoothed: &self.smoothed,
+            level,
+            thickness: &self.thickness,
+            thickness_level,
+            scene_color: &self.color,
+            scene_depth: &self.scene,
+            noise: self.noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
+        }
+    }
+}
+
 pub fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) -> Cases {
     check_other(name, rig, shot, sky, |_| ())
 }
@@ -229,21 +267,12 @@ pub fn check_told(
     settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some(index);
     other(&mut settings);
     let (width, height) = (size.width as usize, size.height as usize);
-    let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
-    let color = Image::from_vec(width, height, color).expect("the output's size");
-    let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
-    let noise = drawn.noise.as_ref().map(|image| (wide(image), noise_look(told, image)));
-    let (thickness, scene) = (drawn.thickness.map(|t| f64::from(*t)), shot.scene_eye());
-    let inputs = Inputs {
-        depth: &depth,
-        smoothed: &smoothed,
-        level,
-        thickness: &thickness,
-        thickness_level: rig.config.thickness_level,
-        scene_color: &color,
-        scene_depth: &scene,
-        noise: noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
-    };
+    let mut layers = Layers::new(&drawn, shot);
+    if let (Some((_, look)), Some(image)) = (&mut layers.noise, &drawn.noise) {
+        *look = noise_look(told, image);
+    }
+    let depth = &layers.depth;
+    let inputs = layers.inputs(level, rig.config.thickness_level);
     let mut expected = twin::shade(&inputs, &settings, |d| sky.radiance(d), &view);
     let bits = rig.gpu.limits().sub_texel_precision_bits;
     let (sky_slope, sky_error) = (sky.slope(), sky.error(bits));

@@ -3,9 +3,8 @@
 use glam::{DMat3, DVec2, DVec3};
 use whitewater::water::{Bed, Compositing, Exit, Fresnel, Medium, Pane, Shading, Wavelets};
 
-use crate::composite::{SKY, Sky, twin_settings};
-use crate::reduce::wide;
-use crate::reference::composite::{self as twin, Inputs, exit_about, scene_at};
+use crate::composite::{Layers, SKY, Sky, twin_settings};
+use crate::reference::composite::{self as twin, exit_about, scene_at};
 use crate::reference::panes::{self, Flat};
 use crate::reference::surface::Surfaces;
 use crate::reference::{Image, View, is_surface};
@@ -128,29 +127,18 @@ fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot) -> (Image<Kind>, [usize; 2]
     let root = f64::from(f0).sqrt();
     settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some((1.0 + root) / (1.0 - root));
     let (width, height) = (shot.size.width as usize, shot.size.height as usize);
-    let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
-    let color = Image::from_vec(width, height, color).expect("the output's size");
-    let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
-    let (thickness, scene) = (drawn.thickness.map(|t| f64::from(*t)), shot.scene_eye());
-    let inputs = Inputs {
-        depth: &depth,
-        smoothed: &smoothed,
-        level,
-        thickness: &thickness,
-        thickness_level: rig.config.thickness_level,
-        scene_color: &color,
-        scene_depth: &scene,
-        noise: None,
-    };
+    let layers = Layers::new(&drawn, shot);
+    let inputs = layers.inputs(level, rig.config.thickness_level);
     let bits = rig.gpu.limits().sub_texel_precision_bits;
     let texel = 1.0 / f64::from(1 << bits);
     let change = change(shot);
     let own = of_twin(shot, &view);
     let surfaces = Surfaces::new(&inputs, &settings, &view);
     let mut sides = [0; 2];
-    let kinds = Image::from_fn(width, height, |x, y| (x, y)).data.into_iter().map(|(x, y)| {
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let kinds = pixels.map(|(x, y)| {
         let out = drawn.output.at(x, y).map(f64::from);
-        if !is_surface(depth.at(x, y)) {
+        if !is_surface(layers.depth.at(x, y)) {
             assert_eq!(drawn.output.at(x, y), free.output.at(x, y), "{name}: dry ({x}, {y})");
             return Kind::Empty;
         }
@@ -169,11 +157,11 @@ fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot) -> (Image<Kind>, [usize; 2]
             return Kind::Free;
         };
         sides[usize::from(gained > 0.0)] += 1;
-        let relief = found.slope;
         let full = (found.parts.full + gained).max(0.0);
         let torn = full.min(2.0 * SPACING);
         found.lens = torn + (full - torn) * found.parts.found;
-        (found.position, found.normal, found.slope) = (position, normal, relief);
+        // The slope stays that of the particles, from which the far surface's slope is found.
+        (found.position, found.normal) = (position, normal);
         found.room = (inputs.scene(x, y) + position.z).max(0.0);
         found.thickness = full.min(found.room);
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
@@ -350,7 +338,7 @@ fn foam_before_panes_is_not_under_water() {
     for (x, y) in (18..43).flat_map(|y| (33..64).map(move |x| (x, y))) {
         flush += usize::from(bare.at(x, y) != at_panes.at(x, y));
         let (a, b) = (foam.at(x, y), foam_at_panes.at(x, y));
-        // Less than e^-10 of what is behind the wall comes through.
+        // The wall's transmittance is below e^-10.
         let off = (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max);
         assert!(off < 1.0e-4, "({x}, {y}): {a:?}, {b:?}");
     }

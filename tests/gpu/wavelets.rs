@@ -3,10 +3,9 @@
 use glam::DVec3;
 use whitewater::water::{Fresnel, Medium, Wavelets};
 
-use crate::composite::{SKY, Sky, twin_settings};
+use crate::composite::{Layers, SKY, Sky, twin_settings};
 use crate::harness::fails;
-use crate::reduce::wide;
-use crate::reference::composite::{Inputs, mirrored};
+use crate::reference::composite::mirrored;
 use crate::reference::surface::{Surface, Surfaces};
 use crate::reference::wavelets::Waves;
 use crate::reference::{Image, is_surface, smoothstep};
@@ -65,22 +64,11 @@ fn still(rig: &Rig<'_>, shot: &Shot, drawn: &Drawn) -> Image<Option<Surface>> {
     let (size, level) = (rig.config.extent, rig.config.smoothing_level);
     let view = shot.view(size);
     let settings = twin_settings(shot, &view);
-    let color = Image::new(size.width as usize, size.height as usize, [0.0; 4]);
-    let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
-    let (thickness, scene) = (drawn.thickness.map(|t| f64::from(*t)), shot.scene_eye());
-    let inputs = Inputs {
-        depth: &depth,
-        smoothed: &smoothed,
-        level,
-        thickness: &thickness,
-        thickness_level: rig.config.thickness_level,
-        scene_color: &color,
-        scene_depth: &scene,
-        noise: None,
-    };
+    let layers = Layers::new(drawn, shot);
+    let inputs = layers.inputs(level, rig.config.thickness_level);
     let surfaces = Surfaces::new(&inputs, &settings, &view);
-    Image::from_fn(color.width, color.height, |x, y| {
-        is_surface(depth.at(x, y)).then(|| surfaces.at(x, y).expect("a surface"))
+    Image::from_fn(layers.depth.width, layers.depth.height, |x, y| {
+        is_surface(layers.depth.at(x, y)).then(|| surfaces.at(x, y).expect("a surface"))
     })
 }
 

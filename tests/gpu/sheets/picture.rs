@@ -5,14 +5,13 @@ use glam::{DVec2, DVec3, Mat4, Vec3};
 use whitewater::water::{Fresnel, Medium, Shading, Splat};
 use whitewater::{Camera, Config};
 
-use crate::composite::{FLAT, Sky, noise_look, twin_settings};
+use crate::composite::{self, FLAT, Sky, twin_settings};
 use crate::harness::fails;
 use crate::reduce::{params, wide};
 use crate::reference::composite::{
     self as twin, Behind, Inputs, Two, cut_look_up, hidden, look_up_both, scene_at,
 };
 use crate::reference::levels::Levels;
-use crate::reference::noise::{Look, Ripples};
 use crate::reference::{Image, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -39,45 +38,24 @@ fn slabs(size: vk::Extent2D) -> Shot {
 
 /// Inputs of the twins for a picture.
 pub struct Layers {
-    depth: Image<f64>,
-    smoothed: Image<f64>,
-    all: Image<f64>,
-    color: Image<[f64; 4]>,
-    scene: Image<f64>,
+    front: composite::Layers,
     boundaries: Image<f64>,
     back_surface: Image<f64>,
     parts: Image<[f64; 3]>,
-    noise: Option<(Image<f64>, Look)>,
 }
 
 impl Layers {
     pub fn new(drawn: &Drawn, shot: &Shot) -> Self {
-        let (width, height) = (shot.size.width as usize, shot.size.height as usize);
-        let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
         Self {
-            depth: wide(&drawn.depth),
-            smoothed: wide(&drawn.surface),
-            all: drawn.thickness.map(|t| f64::from(*t)),
-            color: Image::from_vec(width, height, color).expect("the output's size"),
-            scene: shot.scene_eye(),
+            front: composite::Layers::new(drawn, shot),
             boundaries: wide(&of(drawn).boundaries),
             back_surface: wide(&of(drawn).surface),
             parts: of(drawn).thickness.map(|t| t.map(f64::from)),
-            noise: drawn.noise.as_ref().map(|image| (wide(image), noise_look(shot, image))),
         }
     }
 
     pub fn inputs(&self, level: u32, thickness_level: u32) -> Inputs<'_> {
-        Inputs {
-            depth: &self.depth,
-            smoothed: &self.smoothed,
-            level,
-            thickness: &self.all,
-            thickness_level,
-            scene_color: &self.color,
-            scene_depth: &self.scene,
-            noise: self.noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
-        }
+        self.front.inputs(level, thickness_level)
     }
 
     pub fn behind(&self, level: u32) -> Behind<'_> {
@@ -496,7 +474,7 @@ const FAULTS: [(&str, Fault); 7] = [
     ("front", |layers| layers.parts.data.iter_mut().for_each(|t| t[0] *= 1.001)),
     ("back", |layers| layers.parts.data.iter_mut().for_each(|t| t[1] *= 1.001)),
     ("window", |layers| layers.parts.data.iter_mut().for_each(|t| t[2] *= 1.05)),
-    ("all", |layers| layers.all.data.iter_mut().for_each(|t| *t *= 1.001)),
+    ("all", |layers| layers.front.thickness.data.iter_mut().for_each(|t| *t *= 1.001)),
     ("depth", |layers| layers.back_surface.data.iter_mut().for_each(|z| *z *= 1.05)),
     ("boundary", |layers| layers.boundaries.data.iter_mut().for_each(|b| *b -= 1.0)),
 ];
