@@ -1177,7 +1177,8 @@ pub struct Frame<'a> {
     /// The previous frame, for motion vectors. Without [`Config::motion`] it has to be `None`. With `None`, as in a
     /// first frame, all vectors are zero.
     pub previous: Option<Previous>,
-    /// Panes of glass that the water stands against, at most [`MAX_PANES`](crate::water::MAX_PANES); none by default.
+    /// Panes of glass in front of the water. At most [`MAX_PANES`](crate::water::MAX_PANES) are possible. By default
+    /// there are none.
     pub panes: &'a [Pane],
     /// Settings that are uniforms.
     pub settings: &'a Settings,

@@ -128,10 +128,10 @@ vec2 prism_offset(vec2 pixel, float front, float beyond) {
 }
 
 // Returns the light that enters the front sheet (layer of water) from behind. `surface`: the particles' front surface,
-// which at a pane of glass is not that of the sheet. `behind`: the scene's colour as
-// refracted by the front surface alone. `covers`: there is a second sheet behind this one. `pool`: how far the back
-// sheet touches the scene, 0 to 1. With 1 the ray that leaves the front sheet shows `behind`, which includes the
-// water of the back sheet, because a march would find the dry scene.
+// which at a pane of glass is not that of the sheet. `behind`: the scene's colour as refracted by the front surface
+// alone. `covers`: there is a second sheet behind this one. `pool`: how far the back sheet touches the scene, 0 to 1.
+// With 1 the ray that leaves the front sheet shows `behind`, which includes the water of the back sheet, because a
+// march would find the dry scene.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);

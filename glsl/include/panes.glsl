@@ -35,7 +35,7 @@ bool flush(inout Surface surface, vec2 slope) {
             pane = through || out_of_it ? i : pane;
         }
     }
-    // Likewise.
+    // A loop instead of a branch, as above.
     for (bool any = pane >= 0; any; any = false) {
         vec4 plane = frame.panes[3 * pane];
         float facing = dot(plane.xyz, vec3(slope, -1.0));

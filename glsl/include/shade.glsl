@@ -249,9 +249,9 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
 #include "met_water.glsl"
 
 // The sheet (layer of water) with this front surface and the thickness `t` along z. `ripple` is the surface noise and
-// its slope per pixel. `flat_face`: the surface is flush with a pane, and has neither waves nor a reflection of its
+// its slope per pixel. `at_pane`: the surface is flush with a pane, and has neither waves nor a reflection of its
 // own. `marched` allows a march for reflections of the scene, if MIRROR enables it.
-Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool flat_face, bool marched) {
+Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool at_pane, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
@@ -275,7 +275,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool flat_face
         n = rippled(n, px, py, (1.0 - frame.noise_color.w * wet) * ripple.yz);
     }
 
-    n = flat_face ? n : with_wavelets(n, position, t);
+    n = at_pane ? n : with_wavelets(n, position, t);
 
     Sheet sheet;
     sheet.at = position;
@@ -296,8 +296,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool flat_face
 
     // Reflection and highlight fade out where the water is thin, because at the rims of drops they would outline
     // every drop.
-    float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
-    w = flat_face ? 0.0 : w;
+    float w = at_pane ? 0.0 : by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;
     // A reflected ray that points below the horizon would meet more water, not the environment's ground. So the
@@ -743,7 +742,6 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     // The water's far surface stays where it is.
     float filled = max(particles.z - surface.z, -t);
     t += filled;
-    all.x = max(all.x + filled, 0.0);
     face = Face(surface.z, 0.0, vec3(0.0));
     // `ripple`, the surface noise, is only for the front sheet (layer of water): it belongs to the particles there.
     vec3 ripple = NOISE == 1u && !at_pane ? ripple_at(pixel, front, threshold) : vec3(0.0);

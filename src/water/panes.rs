@@ -27,7 +27,7 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// Says what is wrong with the pane.
+    /// Checks the numbers. The error says what was found.
     pub(crate) fn check(&self) -> Result<(), &'static str> {
         let numbers = self.edges.as_flattened().iter().chain(&self.corner);
         if !numbers.copied().all(|x| x.abs() <= GREATEST) {

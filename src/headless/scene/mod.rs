@@ -62,9 +62,9 @@ pub struct Scene {
     /// World units per metre, (0, ∞), for procedural surfaces: their fine detail, such as grains of sand and fibres
     /// of wood, has a fixed size in metres. (Lengths in [`Pattern`] are in world units.) `None`, the default: 1.
     pub metre: Option<f32>,
-    /// Panes of glass that the water stands against, at most [`MAX_PANES`](crate::water::MAX_PANES). They are static
-    /// and not drawn, nor are reflections on them; edges and mounts can be [`meshes`](Self::meshes) or
-    /// [`backdrop`](Self::backdrop).
+    /// Panes of glass in front of the water. At most [`MAX_PANES`](crate::water::MAX_PANES) are possible. They do not
+    /// move. Neither the panes nor reflections on them are drawn; their edges and mounts can be
+    /// [`meshes`](Self::meshes) or [`backdrop`](Self::backdrop).
     pub panes: Vec<Pane>,
 }
 
