@@ -1,7 +1,7 @@
 // Constants of pass `gaps`, which finds the air between two layers of water. It divides the depth behind each screen
-// cell into slices and marks those near particles' centres; unmarked slices are air. Lengths are in particle
-// spacings. Neighbouring particles in water are one spacing apart, in thin water one and a half; a gap of two and a
-// half is air.
+// cell into slices and marks those near particles' centres; a wide run of unmarked slices is air. Lengths are in
+// particle spacings. Neighbouring particles in water are one spacing apart, in thin water one and a half. Where their
+// places are random, as in many MPM and FLIP caches, two and a half occur inside water.
 
 // Thickness of a depth slice, in particle spacings. It is small, so that the boundary (the depth that separates two
 // layers of water) moves little if the air between them becomes one slice wider or narrower.
@@ -17,6 +17,8 @@ const int AIRS = 5;
 const uint AIR_WORDS = 4u;
 // Distance before and behind a sphere's centre within which it marks slices.
 const float REACH = 0.8;
+// Least number of slices of an air. A narrower run of unmarked slices counts as water.
+const int NARROWEST = 8;
 // Margin in particle spacings around the bounding box of a sphere's silhouette. The sphere marks the screen cells that
 // the box touches and those with their centres in this margin, so that it reaches all cells within a spacing of its
 // centre. Without the margin, cells much smaller than the spheres would find air inside one body of water.

@@ -1,6 +1,6 @@
 #version 460
-// Pass `gaps`, third part: lists the airs of each cell of 8x8 pixels. An air is a run of depth slices without water
-// that has water in front of it and behind it. Not in the thesis.
+// Pass `gaps`, third part: lists the airs of each cell of 8x8 pixels. An air is a run of depth slices without water,
+// at least NARROWEST long, that has water in front of it and behind it. Not in the thesis.
 // Reads: nearest, marks. Writes: airs of the cells.
 
 #include "frame.glsl"
@@ -30,6 +30,17 @@ int next(uint cell, int from, bool marked) {
     return SLICES;
 }
 
+// The first air from slice `from` on: its first slice, and the first slice of the water behind it; SLICES if there is
+// no such slice.
+ivec2 next_air(uint cell, int from) {
+    ivec2 air = ivec2(from);
+    do {
+        air.x = next(cell, air.y, false);
+        air.y = next(cell, air.x, true);
+    } while (air.y < SLICES && air.y - air.x < NARROWEST);
+    return air;
+}
+
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= push.columns || p.y >= push.rows) {
@@ -37,13 +48,12 @@ void main() {
     }
     uint cell = uint(p.y * push.columns + p.x);
     uvec3 words = uvec3(0u);
-    int from = next(cell, 0, false);
-    for (int i = 0; i <= AIRS && from > 0; ++i) {
-        int to = i < AIRS ? next(cell, from, true) : SLICES;
-        bool last = to == SLICES;
-        uint air = uint(min(from, SLICES - 1) | (last ? 0 : to << 8)) << (16 * (i & 1));
-        words |= i < 2 ? uvec3(air, 0u, 0u) : i < 4 ? uvec3(0u, air, 0u) : uvec3(0u, 0u, air);
-        from = last ? 0 : next(cell, to, false);
+    ivec2 air = next_air(cell, 0);
+    for (int i = 0; i <= AIRS && air.x > 0; ++i) {
+        bool last = i == AIRS || air.y == SLICES;
+        uint bytes = uint(min(air.x, SLICES - 1) | (last ? 0 : air.y << 8)) << (16 * (i & 1));
+        words |= i < 2 ? uvec3(bytes, 0u, 0u) : i < 4 ? uvec3(0u, bytes, 0u) : uvec3(0u, 0u, bytes);
+        air = last ? ivec2(0) : next_air(cell, air.y);
     }
     uint at = AIR_WORDS * cell;
     airs[at] = cells[cell];

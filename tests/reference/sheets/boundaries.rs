@@ -7,8 +7,8 @@ use std::ops::Range;
 use super::super::{EMPTY, Image, Sphere, View};
 
 use super::{
-    AIRS, BESIDE, BEYOND, BODY, CELL, CHOSEN, CLEAR, DROP, GROWN, LEAST, Part, REACH, SLICE,
-    SLICES, UNBOUNDED,
+    AIRS, BESIDE, BEYOND, BODY, CELL, CHOSEN, CLEAR, DROP, GROWN, LEAST, NARROWEST, Part, REACH,
+    SLICE, SLICES, UNBOUNDED,
 };
 
 /// Pixels whose centres lie in the bounding box of a sphere's projection, grown by `grown` pixels;
@@ -90,12 +90,13 @@ impl Air<usize> {
     }
 }
 
-/// The first air gaps of a cell.
+/// The first air gaps of a cell. Between two marked slices, less than a spacing without marks is
+/// water.
 pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
     let mut runs = Vec::new();
     for (k, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
         match runs.last_mut() {
-            Some(Range { end, .. }) if *end == k => *end += 1,
+            Some(Range { end, .. }) if ((k - *end) as f64) * SLICE < NARROWEST => *end = k + 1,
             _ => runs.push(k..k + 1),
         }
     }

@@ -54,6 +54,8 @@ pub const SLICE: f64 = 0.125;
 const DROP: f64 = 0.6 * 0.656;
 /// Max number of air gaps of a cell.
 const AIRS: usize = 5;
+/// Least width of an air gap, in spacings.
+const NARROWEST: f64 = 1.0;
 /// Marked slices of a drop, and of a body of water.
 const BODY: [f64; 2] = [14.0, 22.0];
 /// Factor of a gap before a drop.
