@@ -14,7 +14,9 @@ bool on_pane(int pane, vec4 point) {
 }
 
 // Moves a surface near a pane into the pane's plane, and makes it flat there. Returns whether there is a pane.
-bool flush(inout Surface surface, vec2 slope) {
+// `across`: distance from the pane's plane per depth along the view ray.
+bool flush(inout Surface surface, vec2 slope, out float across) {
+    across = 0.0;
     int pane = -1;
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     for (bool go = frame.texel.w > 0.0; go; go = false) {
@@ -39,6 +41,7 @@ bool flush(inout Surface surface, vec2 slope) {
     for (bool any = pane >= 0; any; any = false) {
         vec4 plane = frame.panes[3 * pane];
         float facing = dot(plane.xyz, vec3(slope, -1.0));
+        across = -facing;
         surface.z = -plane.w / facing;
         surface.dz = surface.z / -facing * plane.xy * frame.slope.xy;
     }

@@ -163,6 +163,10 @@ const float MOST_BENT = 1.0 / 16.0;
 // a pixel.
 const int MOST_LOOKS = 14;
 
+// Objects before the water up to about this wide, in heights of the picture, are looked past: a rail, a rope, the edge
+// of a pane. Otherwise each would be framed by two bands in which the scene behind is shifted.
+const float THIN = 1.0 / 60.0;
+
 // Limits an offset in pixels smoothly to MOST_BENT.
 vec2 bent(vec2 offset) {
     vec2 share = offset / (MOST_BENT * frame.extent.y);
@@ -170,26 +174,43 @@ vec2 bent(vec2 offset) {
 }
 
 // Scene colour behind the water at an offset in pixels; never that of an object in front of the water. If such an
-// object or the edge of the view lies within twice the offset, the offset is shortened to half of the free length
-// before it. So the offset shrinks gradually towards an obstacle. An offset that dropped to 0 there would leave a
-// seam, and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
+// object, wider than THIN, or the edge of the view lies within twice the offset, the offset is shortened to half of the
+// free length before it. So the offset shrinks gradually towards an obstacle. An offset that dropped to 0 there would
+// leave a seam, and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     float far = length(offset);
+    // THIN as a multiple of the offset.
+    float thin = THIN * frame.extent.y / max(far, 1.0);
     // Multiples of the offset: `free` is the farthest known to be free of obstacles, `blocked` the nearest known to
     // be blocked (3: none yet).
     float free = 0.0;
     float blocked = 3.0;
+    bool covered = false; // whether the scene at the whole offset is hidden
     int looks = 0;
     do {
         float part = blocked == 3.0 ? free + 1.0 : 0.5 * (free + blocked);
         bool hidden = hidden_at(pixel + offset * part, z);
+        covered = looks == 0 ? hidden : covered;
+        // A loop instead of a branch, for CPU drivers.
+        for (bool go = hidden; go; go = false) {
+            hidden = hidden_at(pixel + offset * (part + thin), z);
+        }
         free = hidden ? free : part;
         blocked = hidden ? part : blocked;
         ++looks;
     } while (free < 2.0 && (blocked - free) * far >= 0.5 && looks < MOST_LOOKS);
     // The look-up stays a pixel and a half away from the obstacle: antialiasing may have blended the obstacle's edge
     // into its neighbours.
-    float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
+    float margin = 1.5 / max(far, 1.0);
+    float part = free < 2.0 ? clamp(0.5 * (free - margin), 0.0, 1.0) : 1.0;
+    // A look-up on a thin object goes to the object's far side. Loops instead of branches, as above.
+    for (bool go = covered && free >= 2.0; go; go = false) {
+        float past = thin;
+        for (float step = 0.5 * thin; step * far >= 0.5; step *= 0.5) {
+            past -= hidden_at(pixel + offset * (1.0 + past - step), z) ? 0.0 : step;
+        }
+        part += past + margin;
+    }
     return scene_at(pixel + offset * part);
 }
 
@@ -451,6 +472,9 @@ float foam_middle(FoamTexels foam) {
     return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
 }
 
+// Factor on the lace's strength for foam behind a pane of glass. There it is a cloud of bubbles in the water, and no
+// layer of bubbles on its surface.
+const float LACE_AT_PANE = 0.35;
 // Range of the factor by which lace brightens its threads and darkens its holes.
 const vec2 LACE_LIGHT = vec2(0.5, 1.2);
 
@@ -458,11 +482,12 @@ const vec2 LACE_LIGHT = vec2(0.5, 1.2);
 // is close to it. Foam stays smooth where the largest cells of the pattern are less than two pixels wide. `much`
 // becomes the density relative to smooth foam, which is more than 1 in a thread and less than 1 in a hole. `light`
 // becomes the factor on the foam's colour, so that dense foam, which has no holes, still shows its bubbles.
-float through_lace(vec2 pixel, float z, float kept, out float much, out float light) {
+// `strength`: factor on the pattern's strength.
+float through_lace(vec2 pixel, float z, float strength, float kept, out float much, out float light) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
     float pixels = frame.foam_pattern.z / (z * frame.texel.x);
-    float told = frame.foam_pattern.y * smoothstep(2.0, 6.0, pixels);
+    float told = strength * frame.foam_pattern.y * smoothstep(2.0, 6.0, pixels);
     vec3 way = drift_at(pixel) * (frame.foam_pattern.w / frame.foam_pattern.z);
     float pore;
     float covered = laced(1.0 - kept, at, way, pixels, pore);
@@ -518,8 +543,9 @@ vec2 shape_light(vec2 pixel, float z) {
 // foam in the front layer, a range of depth right behind the frontmost foam, becomes thicker (Listing A.20; Eq. 3.9
 // swaps the two colours). Each sprite of foam has the visibility of the sun at its centre, and the pixel takes the
 // mean over the sprites of the front layer. (The thesis evaluates the visibility at the mean of nine depths.) A
-// shadow with an edge inside a sprite would show the sprite's outline.
-Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
+// shadow with an edge inside a sprite would show the sprite's outline. `pane`: depth of the pane of glass that the water
+// is flush with, 0 without one, and distance from its plane per depth.
+Foam foam_of(vec2 pixel, FoamTexels texels, bool dry, vec2 pane) {
     Foam foam;
     vec4 t = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -548,8 +574,12 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     float z = foam_middle(texels);
     float aerated = frame.foam_aerated.w * (1.0 - foam.kept);
     bool torn = frame.foam_pattern.y > 0.0 && there;
+    // Foam of particles that stick out through a pane is behind it, too. The pattern lies in the pane's plane: the
+    // foam's depth varies from pixel to pixel.
+    bool glazed = pane.x > 0.0 && (pane.x - z) * pane.y < FLUSH.y * frame.particle.y;
     while (torn) {
-        foam.kept = through_lace(pixel, z, foam.kept, local, light);
+        float strength = glazed ? LACE_AT_PANE : 1.0;
+        foam.kept = through_lace(pixel, glazed ? pane.x : z, strength, foam.kept, local, light);
         torn = false;
     }
     // `middle`: distance of the foam's middle behind the frontmost foam. `far / (1 − far)` is this distance in
@@ -738,7 +768,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     Surface particles = surface;
-    bool at_pane = flush(surface, slope);
+    float across;
+    bool at_pane = flush(surface, slope, across);
     // The water's far surface stays where it is.
     float filled = max(particles.z - surface.z, -t);
     t += filled;
@@ -750,7 +781,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     bool past = false;
     bool behind_boundary = false;
     if (FOAM == 1u) {
-        foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
+        foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY, vec2(at_pane ? surface.z : 0.0, across));
         behind_boundary = foam.depth >= boundary;
         // `past`: the pixel lies between the spheres of the front sheet (the nearer layer of water) and shows the
         // back sheet. Of the front sheet only the foam is then drawn, with the water in this foam. With SHEETS = 1

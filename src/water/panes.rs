@@ -11,7 +11,8 @@ pub const MAX_PANES: usize = 8;
 /// A flat pane of glass, or another clear flat wall, that water stands against and is seen through: a parallelogram.
 /// The front surface of the water near a pane is drawn flat, in the pane's plane. (Without the pane it would be a
 /// relief of particles.) "Near" means within 1.5 spacings, and within half a spacing where the water's surface is at
-/// right angles to the pane. If a ray meets water that is near two panes, the last one counts.
+/// right angles to the pane. Foam behind the pane shows only a third of its lace, because it is a cloud of bubbles there
+/// and no layer on a surface. If a ray meets water that is near two panes, the last one counts.
 ///
 /// The renderer does not draw the glass. Water at a pane has neither reflection nor highlight, because the front of
 /// the glass reflects instead. Only the picture is flush: layers such as `water.depth`, motion vectors, shadows and

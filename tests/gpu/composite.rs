@@ -901,3 +901,39 @@ fn what_stands_before_the_water_is_not_refracted() {
         }
     }
 }
+
+/// Upright rails, one to three pixels wide, before the water. Pictures this high look past up to five pixels.
+#[test]
+fn the_scene_is_seen_past_thin_objects() {
+    let gpu = Gpu::shared();
+    let size = extent(320, 300);
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let mut shot = shot(size, Lens::OffAxis);
+    shot.settings.water.refraction = 1.5;
+    shot.scene_depth(|x, _| Some(if x % 37 < 1 + x / 37 % 3 { 1.2 } else { 30.0 }));
+    check("composite-rails", &mut rig, &shot, Sky::Even);
+    let drawn = rig.draw(&shot);
+    let layers = Layers::new(&drawn, &shot);
+    let inputs = layers.inputs(rig.config.smoothing_level, rig.config.thickness_level);
+    let view = shot.view(size);
+    let settings = twin_settings(&shot, &view);
+    let surfaces = Surfaces::new(&inputs, &settings, &view);
+    let (mut past, mut whole, mut shorter) = (0, 0, 0);
+    for (x, y) in (0..300).flat_map(|y| (0..320).map(move |x| (x, y))) {
+        let Some(found) = surfaces.at(x, y) else { continue };
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let displaced = look_up(&inputs, &settings, &found, &view, pixel);
+        let (at, _) = cut_look_up(&inputs, -found.position.z, pixel, displaced);
+        let longer = pixel.distance(at) - pixel.distance(displaced);
+        *match longer {
+            l if l > 0.0 => &mut past,
+            l if l == 0.0 => &mut whole,
+            _ => &mut shorter,
+        } += 1;
+    }
+    if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+        eprintln!("{past} past rails, {whole} whole, {shorter} shorter");
+    }
+    assert!(past > 500 && shorter > 500, "{past} past, {whole} whole, {shorter} shorter");
+}

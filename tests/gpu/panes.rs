@@ -7,13 +7,15 @@ use crate::composite::{Layers, SKY, Sky, twin_settings};
 use crate::reference::composite::{self as twin, exit_about, scene_at};
 use crate::reference::panes::{self, Flat};
 use crate::reference::surface::Surfaces;
-use crate::reference::{Image, View, is_surface};
+use crate::reference::surface_foam::{self, Pattern};
+use crate::reference::{Image, View, is_surface, smoothstep};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::U;
 use crate::surface_foam::Foamy;
+use crate::surface_foam::picture::closing_error;
 
 const SPACING: f64 = 0.2 / 0.656;
 /// Sides of the box of water in spacings.
@@ -305,14 +307,15 @@ fn water_at_panes_has_no_waves() {
 }
 
 /// Foam before the glass is not tinted by the water that fills the gap between the glass and the
-/// particles.
+/// particles, and has its whole lace.
 #[test]
 fn foam_before_panes_is_not_under_water() {
     let gpu = Gpu::shared();
     let mut tank = tank(Lens::Standard);
     let mut rig = Rig::new(&gpu, &config(tank.size).with(|it| it.surface_foam = true));
     let look = &mut tank.settings.surface_foam;
-    (look.extinction, look.pattern, look.lace, look.aeration) = (1.0e3, 0.0, 0.0, 0.0);
+    (look.extinction, look.pattern, look.lace, look.aeration) = (1.0e3, 0.0, 1.0, 0.0);
+    look.lace_shade = 1.0;
     let water = tank.positions.len();
     let wall = scenes::block(7, 0.1, [14, 10, 1], [-0.7, -0.5, 1.5]);
     let wall = scenes::world(&tank.camera, &wall);
@@ -343,6 +346,90 @@ fn foam_before_panes_is_not_under_water() {
         assert!(off < 1.0e-4, "({x}, {y}): {a:?}, {b:?}");
     }
     assert!(flush > 300, "{flush}");
+}
+
+/// Foam behind a pane has 0.35 of the lace's strength, and the lace lies in the pane's plane.
+#[test]
+fn foam_behind_panes_has_little_lace() {
+    let gpu = Gpu::shared();
+    let mut case = Foamy::new(extent(97, 61), Lens::Standard, 0.0);
+    case.shot = tank(Lens::Standard);
+    case.shot.color.fill([0.1, 0.1, 0.1, 1.0]);
+    case.amounts = vec![[0.7, 0.0]; case.shot.positions.len()];
+    case.velocities = vec![[0.0; 3]; case.amounts.len()];
+    case.ids = None;
+    let water = &mut case.shot.settings.water;
+    water.medium = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+    let look = &mut case.shot.settings.surface_foam;
+    (look.noise, look.pattern, look.normal_strength, look.min_thickness) = (0.0, 0.0, 0.0, 0.0);
+    (look.aeration, look.lace_shade, look.shape, look.lace_size) = (0.0, 0.0, 0.0, 2.0);
+    (look.back_color, look.front_color) = ([0.9; 3], [0.9; 3]);
+    let config = config(case.shot.size).with(|it| {
+        it.surface_foam = true;
+        it.exit = Exit::Straight;
+    });
+    let mut rig = Rig::new(&gpu, &config);
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let mut draw = |lace: f32, extinction: f32| {
+        let look = &mut case.shot.settings.surface_foam;
+        (look.lace, look.extinction, look.front_extinction) = (lace, extinction, 5.0);
+        case.draw(&mut rig)
+    };
+    let [opaque, laced, smooth] = [(0.0, 1.0e4), (1.0, 0.5), (0.0, 0.5)].map(|(a, b)| draw(a, b));
+
+    let view = case.shot.view(case.shot.size);
+    let settings = twin_settings(&case.shot, &view);
+    let layers = Layers::new(&smooth, &case.shot);
+    let inputs = layers.inputs(config.smoothing_level, config.thickness_level);
+    let (surfaces, own) = (Surfaces::new(&inputs, &settings, &view), of_twin(&case.shot, &view));
+    let look = &case.shot.settings.surface_foam;
+    let cell = f64::from(look.lace_size) * f64::from(case.shot.settings.water.spacing);
+    let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
+    let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
+    let to_world = view.view.inverse();
+    let origin = to_world.w_axis.truncate().length() / cell;
+    let foam = smooth.foam.as_ref().expect("foam");
+    let (mut compared, mut told) = (0, 0);
+    for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+        let Some(found) = surfaces.at(x, y) else { continue };
+        let (Some(flat), margin) = panes::flush(&own, &found, SPACING) else { continue };
+        if margin < 1.0e-3 {
+            continue;
+        }
+        // Foam more than 1.5 spacings before the pane has its whole lace.
+        let (depth, level) = (&foam.depth, config.thickness_level);
+        let edge = f64::from(1 << level);
+        let texel = |at: usize, by: f64| ((at as f64 + 0.5) / edge - 0.5 + by).floor().max(0.0);
+        let across = flat.normal.dot(view.ray(x, y)).abs();
+        let before = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(i, j)| {
+            let (i, j) = (texel(x, i) as usize, texel(y, j) as usize);
+            let z = depth.at(i.min(depth.width - 1), j.min(depth.height - 1));
+            (-flat.position.z - f64::from(z)) * across / SPACING
+        });
+        if before.iter().any(|by| *by > 1.49) {
+            continue;
+        }
+        // How much of the scene the foam hides.
+        let of = |drawn: &Drawn| f64::from(drawn.output.at(x, y)[0]) - 0.1;
+        let full = of(&opaque);
+        assert!(full > 0.2, "({x}, {y}): {full}");
+        let [hidden, covered] = [&smooth, &laced].map(|drawn| of(drawn) / full);
+        let at = to_world.transform_point3(flat.position) / cell;
+        let pixels = cell / (view.slope_step().x * flat.position.z).abs();
+        let threads = surface_foam::covered(hidden, at, (DVec3::ZERO, &phases), pixels);
+        let expected = hidden + 0.35 * smoothstep(2.0, 6.0, pixels) * (threads - hidden);
+        let bound = closing_error((at, origin), &phases, pixels) + 64.0 * U / full;
+        assert!(
+            (covered - expected).abs() < bound,
+            "({x}, {y}): {covered}, not {expected} of {hidden}, {bound}"
+        );
+        compared += 1;
+        told += usize::from((expected - hidden).abs() > 2.0 * bound);
+    }
+    if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+        eprintln!("{told} of {compared}");
+    }
+    assert!(compared > 300 && 2 * told > compared, "{told} of {compared}");
 }
 
 /// Where a second layer of water makes no difference, it makes none at panes.

@@ -1,7 +1,7 @@
 //! Compares the sprites of pass `surface_foam` with the CPU twin, and checks that foam is not drawn
 //! as water.
 
-mod picture;
+pub mod picture;
 mod source;
 
 use glam::DVec3;

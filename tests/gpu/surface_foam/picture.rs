@@ -204,7 +204,7 @@ fn thin_foam_is_torn_into_lace() {
 
 /// Bound of the error of a pixel's coverage by lace, from rounding, at a point in cells of the pattern; `origin`: the
 /// camera's distance from the world's origin, in cells.
-fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
+pub fn closing_error((at, origin): (DVec3, f64), phases: &[Phase; 2], pixels: f64) -> f64 {
     // A position errs by 16u of its distance from the origin in cells, and by 5u of the phase's offset. The gradient
     // of `closes` is at most `steepest`, the product of three factors: 2 * 2 r / r^2 for a bubble, the sum of weight /
     // width over the three sizes of bubbles, and 1 + 0.3 * 27 / 2.6 for the displacement by the noise. A smoothstep is

@@ -211,9 +211,13 @@ pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
         .any(|&(x, y)| before(at + DVec2::new(x, y)))
 }
 
-/// The look-up, at most half the way to an object before the water. The search tests up to twice
-/// the displacement, bisects to half a pixel, and subtracts a pixel and a half. Returns also all
-/// tested positions.
+/// Width in picture heights of objects that are looked past.
+const THIN: f64 = 1.0 / 60.0;
+
+/// The look-up, at most half the way to an object before the water that is not thin. The search tests
+/// up to twice the displacement, bisects to half a pixel, and subtracts a pixel and a half. A look-up on a
+/// thin object goes to the end of the object, found by bisection, and a pixel and a half farther. Returns
+/// also all tested positions.
 pub fn cut_look_up(
     inputs: &Inputs<'_>,
     z: f64,
@@ -226,22 +230,37 @@ pub fn cut_look_up(
         asked.push(at(part));
         hidden(inputs, z, at(part))
     };
-    let (mut free, mut blocked) = match (ask(1.0), far < 0.25) {
+    let (thin, margin) =
+        (THIN * inputs.scene_color.height as f64 / far.max(1.0), 1.5 / far.max(1.0));
+    let first = ask(1.0);
+    let (mut free, mut blocked) = match (first && ask(1.0 + thin), far < 0.25) {
         (true, _) => (0.0, 1.0),
         // A displacement this small keeps its whole length if its end is free.
         (false, true) => (1.0, 3.0),
-        (false, false) if ask(2.0) => (1.0, 2.0),
+        (false, false) if ask(2.0) && ask(2.0 + thin) => (1.0, 2.0),
+        (false, false) if first => {
+            let (mut inside, mut clear) = (1.0, 1.0 + thin);
+            while (clear - inside) * far >= 1.0 {
+                let middle = 0.5 * (inside + clear);
+                if ask(middle) {
+                    inside = middle;
+                } else {
+                    clear = middle;
+                }
+            }
+            return (at(clear + margin), asked);
+        }
         (false, false) => return (displaced, asked),
     };
     while (blocked - free) * far >= 0.5 {
         let middle = 0.5 * (free + blocked);
-        if ask(middle) {
+        if ask(middle) && ask(middle + thin) {
             blocked = middle;
         } else {
             free = middle;
         }
     }
-    (at((0.5 * (free - 1.5 / far.max(1.0))).clamp(0.0, 1.0)), asked)
+    (at((0.5 * (free - margin)).clamp(0.0, 1.0)), asked)
 }
 
 /// Colour of the scene behind a surface, displaced, and never that of an object before the water.
