@@ -928,7 +928,7 @@ fn the_scene_is_seen_past_thin_objects() {
         let longer = pixel.distance(at) - pixel.distance(displaced);
         *match longer {
             l if l > 0.0 => &mut past,
-            l if l == 0.0 => &mut whole,
+            0.0 => &mut whole,
             _ => &mut shorter,
         } += 1;
     }
