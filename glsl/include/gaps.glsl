@@ -18,7 +18,7 @@ const uint AIR_WORDS = 4u;
 // Distance before and behind a sphere's centre within which it marks slices.
 const float REACH = 0.8;
 // Least number of slices of an air. A narrower run of unmarked slices counts as water.
-const int NARROWEST = 8;
+const int NARROWEST = 4;
 // Margin in particle spacings around the bounding box of a sphere's silhouette. The sphere marks the screen cells that
 // the box touches and those with their centres in this margin, so that it reaches all cells within a spacing of its
 // centre. Without the margin, cells much smaller than the spheres would find air inside one body of water.

@@ -90,8 +90,8 @@ impl Air<usize> {
     }
 }
 
-/// The first air gaps of a cell. Between two marked slices, less than a spacing without marks is
-/// water.
+/// The first air gaps of a cell. Between two marked slices, less than half a spacing without
+/// marks is water.
 pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
     let mut runs = Vec::new();
     for (k, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {

@@ -55,7 +55,7 @@ const DROP: f64 = 0.6 * 0.656;
 /// Max number of air gaps of a cell.
 const AIRS: usize = 5;
 /// Least width of an air gap, in spacings.
-const NARROWEST: f64 = 1.0;
+const NARROWEST: f64 = 0.5;
 /// Marked slices of a drop, and of a body of water.
 const BODY: [f64; 2] = [14.0, 22.0];
 /// Factor of a gap before a drop.

@@ -75,14 +75,14 @@ fn a_drop_before_a_plane_is_a_sheet_of_its_own() {
         let expected = if (x, y) == (5, 2) { vec![air(8.9375, 9.5625, 0.0)] } else { Vec::new() };
         assert_eq!(found.at(x, y).airs, expected, "({x}, {y})");
     }
-    // The nearer the drop is to the plane, the narrower is the gap: 18, 8 and 7 slices. Less than a
-    // spacing, which is 8 slices, is no gap.
+    // The nearer the drop is to the plane, the narrower is the gap: 18, 4 and 3 slices. Less than
+    // half a spacing, which is 4 slices, is no gap.
     assert_eq!(one(&[8.0, 10.0], 7.7), 9.0);
-    assert_eq!(one(&[8.625, 10.0], 8.3), 9.3125);
-    assert_eq!(one(&[8.6875, 10.0], 8.4), EMPTY);
+    assert_eq!(one(&[8.875, 10.0], 8.55), 9.4375);
+    assert_eq!(one(&[8.9375, 10.0], 8.6), EMPTY);
     // A narrow gap joins the water on its two sides: only the gap behind it counts.
-    assert_eq!(airs(&row(&[8.0, 9.25, 12.0])).airs, [air(9.6875, 11.5625, 0.0)]);
-    assert_eq!(airs(&row(&[8.0, 10.0, 11.25])).airs, [air(8.4375, 9.5625, 1.0)]);
+    assert_eq!(airs(&row(&[8.0, 9.0, 12.0])).airs, [air(9.4375, 11.5625, 0.0)]);
+    assert_eq!(airs(&row(&[8.0, 10.0, 11.0])).airs, [air(8.4375, 9.5625, 1.0)]);
 }
 
 #[test]
@@ -200,12 +200,11 @@ fn the_last_slice_holds_all_that_is_farther() {
     let until = |z: f64| -> Vec<f64> {
         (0..).map(|i| 5.0 + 0.25 * f64::from(i)).take_while(|d| *d <= z).collect()
     };
-    // The layer at 20 marks up to slice 246 (15.4 / 0.0625), the layer at 20.25 up to 250, which
-    // leaves a gap of four slices, the layer at 20.5 up to 254, the layer at 20.75 up to 255.
+    // The layer at 20.25 marks up to slice 250 (15.65 / 0.0625), which leaves a gap of four slices,
+    // the layer at 20.5 up to 254, the layer at 20.75 up to 255.
     for (last, far, air_from) in [
-        (20.0, Some(100.0), Some(247.0)),
-        (20.0, None, None),
-        (20.25, Some(100.0), None),
+        (20.25, Some(100.0), Some(251.0)),
+        (20.25, None, None),
         (20.5, Some(100.0), None),
         (20.75, Some(100.0), None),
     ] {
@@ -275,13 +274,13 @@ fn a_cell_is_certain_unless_rounding_decides() {
     assert!(apart.low < 8.5 && apart.high > 8.5 + 256.0 / 16.0);
     let none = |known: &Known| known.is_certain() && known.cell.airs.is_empty();
     assert!(none(&judge(&[8.5])) && none(&judge(&[8.5, 9.375])));
-    assert!(none(&judge(&[8.5, 9.7])));
-    // The second sphere marks from slice 15 or from slice 14 on, so there is a gap or none.
-    let edge = 8.5 + 15.0 / 16.0 + 0.4;
+    assert!(none(&judge(&[8.5, 9.45])));
+    // The second sphere marks from slice 11 or from slice 10 on, so there is a gap or none.
+    let edge = 8.5 + 11.0 / 16.0 + 0.4;
     let either = judge(&[8.5, edge]);
     assert!(!either.is_certain(), "{either:?}");
     assert!(judge(&[8.5, edge + 1e-3]).is_certain());
-    // The second sphere marks from slice 16 or from slice 15 on, or the first sheet ends one slice
+    // The second sphere marks from slice 12 or from slice 11 on, or the first sheet ends one slice
     // later: the gap has one width or another.
     for depths in [&[8.5, edge + 0.0625][..], &[8.5, 8.6, 12.0]] {
         assert!(!judge(depths).is_certain(), "{depths:?}");
@@ -296,8 +295,8 @@ fn a_cell_is_certain_unless_rounding_decides() {
     assert!(high - low < 4e-4);
     // This texel may have the boundary of the first cell or its own; it always has one.
     let KnownTexel { low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(1, 0);
-    assert!(!certain && maybe_one && !maybe_none && low <= 9.1876 && high >= 9.2499);
-    assert!(low > 9.18 && high < 9.26, "{low} {high}");
+    assert!(!certain && maybe_one && !maybe_none && low <= 9.0626 && high >= 9.2499);
+    assert!(low > 9.055 && high < 9.26, "{low} {high}");
     assert!(!texels(2).at(1, 0).certain);
     // If the surface lies in the middle of the gap, rounding decides whether the gap is behind the
     // surface.
