@@ -6,7 +6,7 @@
 //!
 //! In each cell of 8×8 pixels, depth is divided into 256 slices of an eighth of a spacing. They begin at the cell's
 //! nearest sphere and reach 32 spacings. Every sphere, except small flying drops, marks the slices within 0.8
-//! spacings of its centre; a run of unmarked slices between marked ones, at least a spacing long, is air. (Where
+//! spacings of its centre; a run of unmarked slices between marked ones, at least half a spacing long, is air. (Where
 //! particles' places are random, shorter runs occur inside water.) Water beyond the 32 spacings counts as in the last
 //! slice, so air there is not found. Marks need no sorting: a cell is nine words, written with
 //! atomics, for any number of particles. A cell without air copies the air of a cell beside it.
