@@ -6,10 +6,10 @@
 //!
 //! In each cell of 8×8 pixels, depth is divided into 256 slices of an eighth of a spacing. They begin at the cell's
 //! nearest sphere and reach 32 spacings. Every sphere, except small flying drops, marks the slices within 0.8
-//! spacings of its centre; a run of unmarked slices between marked ones, at least half a spacing long, is air. (Where
-//! particles' places are random, shorter runs occur inside water.) Water beyond the 32 spacings counts as in the last
-//! slice, so air there is not found. Marks need no sorting: a cell is nine words, written with
-//! atomics, for any number of particles. A cell without air copies the air of a cell beside it.
+//! spacings of its centre. A run of unmarked slices between marked ones is air if it is at least half a spacing long.
+//! Shorter runs also occur inside water whose particles lie at random. Water beyond the 32 spacings counts as in the
+//! last slice, so air there is not found. Marks need no sorting: a cell is nine words, written with atomics, for any
+//! number of particles. A cell without air copies the air of a cell beside it.
 //!
 //! A texel of the thickness chooses the first wide air that lies behind the surface that the texel shows and in front
 //! of a body of water. The four cells around the texel vote with bilinear weights. If a drop flies in front of a
