@@ -44,9 +44,12 @@ bool keeps_boundary(float boundary, float front, float back, float scene) {
     return boundary < EMPTY && (front > 0.0 && back > 0.0 || scene > 0.0 && scene < boundary);
 }
 
-// Shares of a thickness sprite at depth z that belong to the front sheet (layer of water), to the back sheet, and to
-// the window, which is the range within a spacing of the boundary between both. Water in the window means that the
-// two sheets are one.
+// The window is the range of depth around the boundary between two sheets (layers of water). Water in it means that
+// both are one. Distances from the boundary, in spacings, up to which water counts fully, and from which on it does not
+// count. The narrowest air has its particles 1.05 spacings from its middle (gaps.glsl), so it is closed before it ends.
+const vec2 WINDOW = vec2(0.5, 1.5);
+
+// Shares of a thickness sprite at depth z that belong to the front sheet, to the back sheet, and to the window.
 vec3 sheet_shares(float z, float boundary) {
     if (boundary >= EMPTY) {
         return vec3(1.0, 0.0, ONE_SHEET);
@@ -54,5 +57,5 @@ vec3 sheet_shares(float z, float boundary) {
     float spacing = frame.particle.y;
     float off = z - boundary;
     float back = smoothstep(-0.5 * spacing, 0.5 * spacing, off);
-    return vec3(1.0 - back, back, 1.0 - smoothstep(0.5 * spacing, spacing, abs(off)));
+    return vec3(1.0 - back, back, 1.0 - smoothstep(WINDOW.x * spacing, WINDOW.y * spacing, abs(off)));
 }

@@ -757,8 +757,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             beyond = other.covered > 0.0 ? mix(surface.z, other.z, share.x) : 0.0;
         }
         // The reduction widens a near surface by one texel over the surface behind it. The pixel shows the one behind
-        // again; otherwise it leaves rims.
+        // again; otherwise it leaves rims. Between the spheres of a front sheet it shows the back sheet only as far
+        // as there is air: where both are one, the gap is closed.
         float lost = covers || !surface.widened ? 0.0 : (1.0 - surface.found) * other.found;
+        lost *= boundary < EMPTY ? share.x : 1.0;
         surface.z = mix(surface.z, other.z, lost);
         surface.dz = mix(surface.dz, other.dz, lost);
         surface.found += lost;

@@ -140,7 +140,7 @@ void splat(ivec2 texel, Sprite sprite) {
 }
 
 // Narrows the sprite's box of texels to those blocks of 16x16 pixels with a boundary between two layers of water that
-// the sprite's centre lies before or at most a spacing behind (front layer or window).
+// the sprite's centre lies before or at most a window's reach behind (front layer or window).
 ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
@@ -149,7 +149,7 @@ ivec4 before_boundary(Sprite sprite, ivec4 box) {
     // Two nested loops: a single `do`-`while` loop that runs only once would lose `part` with lavapipe 22.3.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
-            if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {
+            if (-sprite.centre.z < blocks[y * columns + x] + WINDOW.y * frame.particle.y) {
                 part = ivec4(min(part.xy, ivec2(x, y)), max(part.zw, ivec2(x, y)));
             }
         }

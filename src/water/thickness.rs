@@ -8,7 +8,7 @@
 //! sums, which do not depend on the order of the particles.
 //!
 //! Where `gaps` has found a boundary between two layers of water, a second image holds the thickness of each layer,
-//! and the thickness of the water in a window of depths, up to one spacing before and behind the boundary: water in
+//! and the thickness of the water in a window of depths, up to 1.5 spacings before and behind the boundary: water in
 //! the window means that the layers are connected. Where all water belongs to one layer, the boundary is removed.
 //!
 //! With foam the image has a second channel: the thickness of the water in front of the frontmost foam. Whether water

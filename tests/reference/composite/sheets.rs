@@ -151,7 +151,9 @@ impl<'a> Two<'a> {
             back = Some(Back { surface, covered, apart, nearest });
         } else if fronts.is_covered(x, y, f, &mut margin) {
             let behind = backs.smooth(x, y, f, &mut margin);
-            mixed = (1.0 - smooth.found) * behind.found;
+            // Without air the texel has one sheet, which has no gaps between its spheres.
+            let open = if is_surface(boundary) { apart } else { 1.0 };
+            mixed = open * (1.0 - smooth.found) * behind.found;
             // Slopes per texel of the front image.
             let finer = 0.5_f64.powi(self.behind.level as i32 - inputs.level as i32);
             let slopes = behind.slope.map(|slope| slope * finer);

@@ -70,7 +70,7 @@ const CLEAR: f64 = 0.5;
 const SOFT: f64 = 0.5;
 /// Distances from the boundary up to which water fills the window, and from which on it does not
 /// count, in spacings.
-const WINDOW: [f64; 2] = [0.5, 1.0];
+const WINDOW: [f64; 2] = [0.5, 1.5];
 /// With one sheet the window holds this many times the water's thickness.
 pub const ONE_SHEET: f64 = 1e6;
 /// Distance, in radii, below which the projection of a sphere is unbounded.

@@ -325,8 +325,8 @@ fn each_sheet_has_its_own_thickness() {
     let view = wide(32, 16);
     // Spheres before, at and behind the boundary. The share passes from the front to the back sheet
     // within half a spacing of the boundary; the share of the window falls to zero between half a
-    // spacing and one.
-    let depths = [5.0, 6.875, 7.0, 7.375, 9.0];
+    // spacing and one and a half.
+    let depths = [5.0, 6.875, 7.0, 7.5, 9.0];
     let spheres = depths.map(|z| at(0.5, -0.5, z));
     let (fronts, windows) = ([1.0, 0.84375, 0.5, 0.0, 0.0], [0.0, 1.0, 1.0, 0.5, 0.0]);
     let volume = Amplitude::Volume { particle_volume: 0.1 };
