@@ -16,6 +16,7 @@ pub mod requirements;
 pub mod retire;
 pub mod scan;
 pub mod shader;
+mod specialize;
 pub mod target;
 pub mod timing;
 

@@ -10,6 +10,7 @@ use super::Gpu;
 use super::graveyard::{Grave, Graveyard};
 use super::limits;
 use super::shader::Shader;
+use super::specialize::specialized;
 use crate::error::{Error, VkContext};
 
 /// A pipeline, shared through its context or owned by one object.
@@ -94,7 +95,7 @@ pub struct Graphics<'a> {
     pub pass: vk::RenderPass,
     /// Blend state of the one attachment.
     pub blend: &'a [vk::PipelineColorBlendAttachmentState],
-    /// Specialisation constants (id, value).
+    /// Specialization constants (id, value).
     pub constants: &'a [(u32, u32)],
 }
 
@@ -122,32 +123,6 @@ impl Drop for Module<'_> {
     fn drop(&mut self) {
         // SAFETY: no pipeline is being created from it any more; the GPU never uses modules.
         unsafe { self.1.device.destroy_shader_module(self.0, None) };
-    }
-}
-
-struct Specialization {
-    entries: Vec<vk::SpecializationMapEntry>,
-    data: Vec<u8>,
-}
-
-impl Specialization {
-    fn new(constants: &[(u32, u32)]) -> Self {
-        Self {
-            entries: constants
-                .iter()
-                .enumerate()
-                .map(|(i, &(id, _))| vk::SpecializationMapEntry {
-                    constant_id: id,
-                    offset: 4 * i as u32,
-                    size: 4,
-                })
-                .collect(),
-            data: constants.iter().flat_map(|&(_, value)| value.to_ne_bytes()).collect(),
-        }
-    }
-
-    fn info(&self) -> vk::SpecializationInfo<'_> {
-        vk::SpecializationInfo::default().map_entries(&self.entries).data(&self.data)
     }
 }
 
@@ -212,16 +187,13 @@ impl Made {
             &[(shader, vk::ShaderStageFlags::COMPUTE)],
             vk::PipelineBindPoint::COMPUTE,
         )?;
-        let module = gpu.module(&shader)?;
-        let specialization = Specialization::new(constants);
-        let special = specialization.info();
+        let module = gpu.module(&shader, constants)?;
         let info = vk::ComputePipelineCreateInfo::default()
             .stage(
                 vk::PipelineShaderStageCreateInfo::default()
                     .stage(vk::ShaderStageFlags::COMPUTE)
                     .module(module.0)
-                    .name(c"main")
-                    .specialization_info(&special),
+                    .name(c"main"),
             )
             .layout(pipeline.layout);
         // SAFETY: module and layout come from the same shader.
@@ -276,10 +248,10 @@ impl Made {
         state: vk::GraphicsPipelineCreateInfo<'_>,
     ) -> Result<Self, Error> {
         let mut pipeline = Self::layouts(gpu, stages, vk::PipelineBindPoint::GRAPHICS)?;
-        let modules: Vec<Module<'_>> =
-            stages.iter().map(|(shader, _)| gpu.module(shader)).collect::<Result<_, _>>()?;
-        let specialization = Specialization::new(constants);
-        let special = specialization.info();
+        let modules: Vec<Module<'_>> = stages
+            .iter()
+            .map(|(shader, _)| gpu.module(shader, constants))
+            .collect::<Result<_, _>>()?;
         let infos: Vec<_> = stages
             .iter()
             .zip(&modules)
@@ -288,7 +260,6 @@ impl Made {
                     .stage(*stage)
                     .module(module.0)
                     .name(c"main")
-                    .specialization_info(&special)
             })
             .collect();
         let info = state.stages(&infos).layout(pipeline.layout);
@@ -409,9 +380,9 @@ impl Drop for Made {
 }
 
 impl Gpu {
-    fn module(&self, shader: &Shader) -> Result<Module<'_>, Error> {
-        let words: &[u32] = bytemuck::cast_slice(shader.code);
-        let info = vk::ShaderModuleCreateInfo::default().code(words);
+    fn module(&self, shader: &Shader, constants: &[(u32, u32)]) -> Result<Module<'_>, Error> {
+        let words = specialized(bytemuck::cast_slice(shader.code), constants);
+        let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: SPIR-V from our own build.
         let module = unsafe { self.device.create_shader_module(&info, None) }
             .context(|| format!("vkCreateShaderModule {}", shader.name))?;
