@@ -318,14 +318,26 @@ fn ids_that_do_not_fit_are_dropped() {
     ];
     let p = read_bytes(&samples::npz(&arrays, false), Extension::Npz).unwrap();
     assert_eq!(p.ids, None);
-    // Of longer integers the lower half is used as id, unless it repeats.
-    for (id, expected) in [("4294967298", 2), ("1000000000001", 3_567_587_329)] {
-        let text = format!("x,y,z,id\n0,0,0,1\n1,1,1,{id}\n");
-        let p = read_bytes(text.as_bytes(), Extension::Csv).unwrap();
-        assert_eq!(p.ids, Some(vec![1, expected]), "{id}");
-    }
     let p = read_bytes(b"x,y,z,id\n0,0,0,4294967295\n", Extension::Csv).unwrap();
     assert_eq!(p.ids, Some(vec![u32::MAX]));
+}
+
+/// The lower halves of ids beyond 32 bits may repeat: here they are numbers of particles within a process.
+#[test]
+fn long_ids_differ_as_a_whole() {
+    let row =
+        |i: u64| format!("{},{},{},{}\n", i % 10, i / 10 % 10, i / 100, (i / 50) << 32 | i % 50);
+    let frame = |order: fn(u64) -> u64| {
+        let text: String = (0..1000).map(|i| row(order(i))).collect();
+        read_bytes(format!("x,y,z,id\n{text}").as_bytes(), Extension::Csv).unwrap()
+    };
+    let [first, second] = [frame(|i| i), frame(|i| 999 - i)];
+    assert!(first.warnings.is_empty(), "{:?}", first.warnings);
+    let ids = first.ids.unwrap();
+    assert_eq!(ids[..50], *(0..50).collect::<Vec<_>>());
+    assert_eq!(ids.iter().collect::<std::collections::HashSet<_>>().len(), 1000);
+    // A particle has one id in all frames.
+    assert!(second.ids.unwrap().iter().rev().eq(&ids));
 }
 
 #[test]

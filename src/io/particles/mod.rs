@@ -109,7 +109,7 @@ pub struct Particles {
     pub velocities: Option<Vec<[f32; 3]>>,
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
-    /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. All ids are
+    /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are hashed to 32. All ids are
     /// dropped, with a warning, if any is negative, no whole number, or too large to be exact, or if more than 1 % of
     /// them repeat (more in a file in which positions repeat too).
     pub ids: Option<Vec<u32>>,

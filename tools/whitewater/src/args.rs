@@ -210,6 +210,7 @@ pub struct RenderArgs {
     pub fluids: Vec<FluidArg>,
     /// Unit of lengths in the particle files, velocities included [default: m]
     ///
+    /// Velocities whose names say their own unit, such as `vx [m/s]`, keep that one.
     /// All other lengths (--radius, --eye, --scene) are in metres.
     #[arg(long, value_enum, conflicts_with = "scale")]
     pub unit: Option<Unit>,

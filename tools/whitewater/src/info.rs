@@ -38,6 +38,8 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
                 if let Some(Ok(())) = unsure {
                     radii::take(&mut particles, radii::UNSURE, &frame.path)?;
                 }
+                let speeds = placing::agree(&mut particles, 1.0);
+                particles.warnings.extend(speeds);
                 let value = describe(&path, frame, &particles);
                 let spacing = value["spacing"].as_f64().map(|spacing| spacing as f32);
                 summary.add(frame.number, &particles, spacing);

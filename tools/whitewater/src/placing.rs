@@ -145,15 +145,65 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
 /// The unit of length that stands in brackets after the names of the position attributes, or in a row of units below
 /// them: its name, metres per unit, and the first of the attributes' names.
 fn named(particles: &Particles) -> Option<(&'static str, f64, &str)> {
-    let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
-    let unit = |name: &String| {
-        let (_, unit) = name.rsplit_once(['[', '('])?;
-        let unit = unit.trim_end().trim_end_matches([']', ')']).trim();
-        LENGTH_UNITS.iter().find(|(known, _)| *known == unit)
+    let (unit, name) = bracketed(particles, Meaning::Position)?;
+    let (unit, metres) = length(unit)?;
+    Some((unit, metres, name))
+}
+
+/// What stands in brackets behind the names of all attributes with this meaning, and the first of these names.
+fn bracketed(particles: &Particles, meaning: Meaning) -> Option<(&str, &str)> {
+    let (_, names) = particles.meanings.iter().find(|(m, _)| *m == meaning)?;
+    fn unit(name: &str) -> Option<&str> {
+        let (before, unit) = name.rsplit_once(['[', '('])?;
+        (!before.trim().is_empty()).then(|| unit.trim_end().trim_end_matches([']', ')']).trim())
+    }
+    let first = names.first()?;
+    let all = names.iter().map(|name| unit(name));
+    let mut units = all.collect::<Option<Vec<_>>>()?.into_iter();
+    let of_first = unit(first)?;
+    units.all(|unit| unit == of_first).then_some((of_first, first))
+}
+
+fn length(unit: &str) -> Option<(&'static str, f64)> {
+    LENGTH_UNITS.into_iter().find(|(known, _)| *known == unit)
+}
+
+/// Metres per second in a unit of speed, such as `mm/s`, `m s^-1`, `m.s-1` or `km/h`.
+fn speed(unit: &str) -> Option<f64> {
+    const TIMES: [(&str, f64); 6] =
+        [("s", 1.0), ("sec", 1.0), ("ms", 1.0e-3), ("min", 60.0), ("h", 3600.0), ("hr", 3600.0)];
+    let end = unit.find(|c: char| !c.is_alphabetic())?;
+    let (metres, rest) = (length(&unit[..end])?.1, unit[end..].trim_start());
+    let time = match rest.strip_prefix('/') {
+        Some(time) => time.trim(),
+        None => {
+            let time = rest.trim_start_matches(['.', '*', '\u{b7}', '\u{22c5}']).trim();
+            let of = ["^-1", "^(-1)", "^{-1}", "**-1", "-1", "\u{207b}\u{b9}"];
+            of.iter().find_map(|power| time.strip_suffix(power))?.trim_end()
+        }
     };
-    let units: Option<Vec<_>> = names.iter().map(unit).collect();
-    let (unit, metres) = **units?.first()?;
-    Some((unit, metres, names.first()?))
+    let (_, seconds) = TIMES.into_iter().find(|(known, _)| *known == time)?;
+    Some(metres / seconds)
+}
+
+/// Velocities whose names say their unit are converted to the unit of the positions, if this is another one. `scale` is the
+/// metres per unit of length that the user gave; without (1), the names of the positions count. Returns a message.
+pub fn agree(particles: &mut Particles, scale: f32) -> Option<String> {
+    let metres = match named(particles) {
+        Some((_, metres, _)) if scale == 1.0 => metres,
+        _ => f64::from(scale),
+    };
+    let (unit, name) = bracketed(particles, Meaning::Velocity)?;
+    let factor = (speed(unit)? / metres) as f32;
+    if (factor - 1.0).abs() < 1.0e-5 {
+        return None;
+    }
+    let told = format!(
+        "velocities are read in {unit}, as their names say (`{name}`), and converted to the unit of the positions"
+    );
+    let all = particles.velocities.as_mut()?;
+    all.as_flattened_mut().iter_mut().for_each(|c| *c *= factor);
+    Some(told)
 }
 
 /// A message about that unit, if it is not the metre.
@@ -295,6 +345,39 @@ mod tests {
         assert!(named_metres(&of("x [m]")).unwrap().starts_with("m, as"));
         for name in ["x [m]", "x", "x [furlong]"] {
             assert_eq!(named_hint(&of(name)), None, "{name}");
+        }
+    }
+
+    /// Positions and velocities may be in different units, whichever is named and whatever the user says.
+    #[test]
+    fn velocities_keep_their_own_unit() {
+        // Names, scale given by the user, and metres per second that a component of 3 becomes.
+        for (position, velocity, scale, expected) in [
+            ("x [mm]", "vx [m/s]", 0.001, Some(3.0)),
+            ("x", "vx [m/s]", 0.001, Some(3.0)),
+            ("x [mm]", "vx [mm/s]", 0.001, None),
+            // Positions in millimetres are read as metres, and so are the velocities.
+            ("x [mm]", "vx [mm/s]", 1.0, None),
+            ("x [mm]", "vx [m/s]", 1.0, Some(3000.0)),
+            ("x [m]", "vx [mm/s]", 1.0, Some(0.003)),
+            ("x", "Vel.x (cm.s-1)", 1.0, Some(0.03)),
+            ("x", "vx [km/h]", 1.0, Some(3.0 / 3.6)),
+            ("x", "vx [m s^-1]", 1.0, None),
+            ("x", "vx [m/s^2]", 0.001, None),
+            ("x", "vx", 0.001, None),
+        ] {
+            let mut particles = Particles::from_positions(vec![[0.0; 3]]);
+            particles.velocities = Some(vec![[3.0; 3]]);
+            particles.meanings = vec![
+                (Meaning::Position, vec![position.into(); 3]),
+                (Meaning::Velocity, vec![velocity.into(); 3]),
+            ];
+            let told = agree(&mut particles, scale);
+            Placing { scale, ..Placing::default() }.place(&mut particles);
+            let found = particles.velocities.unwrap()[0][0];
+            let expected_speed = expected.unwrap_or(3.0 * scale);
+            assert!((found / expected_speed - 1.0).abs() < 1.0e-5, "{velocity}: {found}");
+            assert_eq!(told.is_some(), expected.is_some(), "{velocity}: {told:?}");
         }
     }
 

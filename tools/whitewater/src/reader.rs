@@ -14,7 +14,7 @@ use crate::extras::{self, Condition};
 use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
 use crate::odd::Size;
-use crate::placing::Placing;
+use crate::placing::{self, Placing};
 use crate::radii::{self, Split};
 use crate::surface_foam::quantile;
 use crate::tracks::Motion;
@@ -298,6 +298,8 @@ impl<'a> Reader<'a> {
                 particles.positions.len()
             ));
         }
+        let speeds = placing::agree(&mut particles, self.placing.scale);
+        particles.warnings.extend(speeds);
         Placing { origin: self.origin(), ..self.placing }.place(&mut particles);
         if self.drops_ids() {
             particles.ids = None;

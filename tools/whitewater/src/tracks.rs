@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use glam::Vec3;
-use whitewater::io::particles::Particles;
+use whitewater::io::particles::{Particles, estimate_spacing};
 
 use crate::odd::Size;
 use crate::surface_foam::quantile;
@@ -50,6 +50,9 @@ const CLEAR: f32 = 0.8;
 /// against them: half of them do by chance, and few do between frames that are far apart in time.
 const FEW: f32 = 0.3;
 const BACK: f32 = 0.35;
+/// If the rows are shuffled, two particles of one row are mostly at least this many spacings apart. The particles of still
+/// water tremble by less, with velocities that say little about the way from frame to frame.
+const APART: f32 = 1.0;
 /// Max ratio of the extents of two frames that are compared.
 const ALIKE: f32 = 3.0;
 /// Min number of moving particles for a doubt about ids or velocities.
@@ -86,8 +89,14 @@ pub fn motion(first: &Particles, second: &Particles) -> Option<Motion> {
         return Some(Motion::Turned(name, seconds));
     }
     let back = steps.iter().filter(|(moved, v)| moved.dot(*v) < 0.0).count();
-    let shuffled = back as f32 >= BACK * steps.len() as f32;
-    (shuffled && share <= FEW && rows(first) && rows(second)).then_some(Motion::Rows)
+    let shuffled = back as f32 >= BACK * steps.len() as f32 && share <= FEW;
+    (shuffled && rows(first) && rows(second) && far(first, &steps)?).then_some(Motion::Rows)
+}
+
+/// Whether most steps are as far as other particles are.
+fn far(particles: &Particles, steps: &[Step]) -> Option<bool> {
+    let median = quantile(steps.iter().map(|(moved, _)| moved.length()).collect(), 0.5)?;
+    Some(median >= APART * estimate_spacing(&particles.positions)?)
 }
 
 /// Velocities in other axes: names of those that are x, y and z.
@@ -217,6 +226,29 @@ mod tests {
             frame.ids = Some((7..407).collect());
         }
         assert_eq!(motion(&first, &second), None);
+    }
+
+    /// Particles that tremble about their places have velocities that say nothing about the way between two frames.
+    #[test]
+    fn numbers_of_rows_of_still_water_are_ids() {
+        let mut state = 1_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / 16_777_216.0 - 0.5
+        };
+        let mut still = || {
+            let place = |i: usize| [i % 10, i / 10 % 10, i / 100].map(|c| 0.02 * c as f32);
+            let places = (0..1000).map(|i| place(i).map(|c| c + 0.01 * random()));
+            let mut particles = Particles::from_positions(places.collect());
+            particles.velocities = Some((0..1000).map(|_| [0.0; 3].map(|_| random())).collect());
+            particles.ids = Some((0..1000).collect());
+            particles
+        };
+        let [first, mut second] = [still(), still()];
+        assert_eq!(motion(&first, &second), None);
+        // The same with its rows in another order.
+        second.positions.rotate_left(367);
+        assert_eq!(motion(&first, &second), Some(Motion::Rows));
     }
 
     #[test]

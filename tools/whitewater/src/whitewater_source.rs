@@ -17,7 +17,7 @@ use crate::bubbles::Random;
 use crate::failure::{Failure, Outcome};
 use crate::frames;
 use crate::generate::Generate;
-use crate::placing::Placing;
+use crate::placing::{self, Placing};
 use crate::settings::SettingsFile;
 
 /// Number of probed whitewater frames, from which the longest lifetime and the number of particles per column are
@@ -426,6 +426,8 @@ impl Part {
         first: u32,
         seconds: f32,
     ) -> Self {
+        // The same files' water has told of another unit.
+        _ = placing::agree(&mut read, placing.scale);
         placing.place(&mut read);
         if let Some(velocities) = &read.velocities {
             read.positions = blur::moved(&read.positions, velocities, seconds);
