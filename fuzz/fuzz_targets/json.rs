@@ -10,6 +10,7 @@ fuzz_target!(|data: &[u8]| {
         "[",
         "[{\"x\":1,\"y\":2,\"z\":",
         "{\"particles\":[{\"position\":[",
+        "{\"meta\":{\"dt\":1},\"frame\":{\"fluid\":{\"positions\":[",
         "{\"columns\":[\"x\",\"y\",\"z\"],\"data\":[",
     ] {
         let _ = read_bytes(&[start.as_bytes(), data].concat(), Extension::Json);

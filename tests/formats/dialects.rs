@@ -258,8 +258,10 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
     let p = read(&format!("{comments}x,y,z\n1,2,3\n"), Extension::Csv);
     assert_eq!((p.positions, p.warnings.len()), (vec![[1.0, 2.0, 3.0]], 0));
     // Several tables in one file.
+    let again = "x,y,z\n1,2,3\n4,5,6\nx,y,z\n1,2,3\n";
+    error(again, Extension::Csv, &["several frames (the second begins in line 4)"]);
     for text in [
-        "x,y,z\n1,2,3\n4,5,6\nx,y,z\n1,2,3\n",
+        "x,y,z\n1,2,3\n4,5,6\na,b,c\n1,2,3\n",
         "TIMESTEP, 0.1\nx,y,z\n1,2,3\n4,5,6\nTIMESTEP, 0.2\nx,y,z\n1,2,3\n",
     ] {
         error(
@@ -962,4 +964,124 @@ fn a_row_of_units_is_read() {
     // Between spaces it would be that of another column.
     let p = read("id x y z\nm m m\n7 0 0 0\n8 1 1 1\n", Extension::Xyz);
     assert_eq!(p.meanings[0].1, ["x", "y", "z"]);
+}
+
+/// Comments number the columns in many ways, in one line or a line each. The positions are where the names say.
+#[test]
+fn comments_number_the_columns() {
+    let body = "0.5 7 1 2 3\n0.5 9 4 5 6\n0.5 8 7 8 9\n";
+    for head in [
+        "# 1:time 2:id 3:x 4:y 5:z",
+        "# 1:time, 2:id, 3:x, 4:y, 5:z",
+        "# [1] time [2] id [3] x [4] y [5] z",
+        "# [1]=time  [2]=id  [3]=x  [4]=y  [5]=z",
+        "# (1) time (2) id (3) x (4) y (5) z",
+        "#1 time 2 id 3 x 4 y 5 z",
+        "# col1: time, col2: id, col3: x, col4: y, col5: z",
+        "# 1=time 2=id 3=x 4=y 5=z",
+        "# $1 = time $2 = id $3 = x [m] $4 = y [m] $5 = z [m]",
+        "% 0:time 1:id 2:x 3:y 4:z",
+        "# columns: time id x y z",
+        "# written by a solver\n# column 1: time\n# column 2: id\n# column 3: x\n# column 4: y\n# column 5: z\n# end",
+        "# 1 time [s]\n# 2 id\n# 3 x position of a particle\n# 4 y\n# 5 z",
+        "# $1 = time [s]\n# $2 = id\n# $3 = x [m]\n# $4 = y [m]\n# $5 = z [m]\n",
+    ] {
+        for (hint, separator) in [(Extension::Xyz, " "), (Extension::Csv, ",")] {
+            let text = format!("{head}\n{}", body.replace(' ', separator));
+            if head.starts_with('%') && hint == Extension::Csv {
+                continue;
+            }
+            let p = read(&text, hint);
+            assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], "{text}");
+            assert_eq!(p.ids.as_deref(), Some(&[7, 9, 8][..]), "{text}");
+            assert_eq!(p.time, Some(0.5), "{text}");
+            assert!(p.warnings.is_empty(), "{text}: {:?}", p.warnings);
+        }
+    }
+    let all = "# 1:x 2:y 3:z 4:vx 5:vy 6:vz 7:id 8:rho\n";
+    check("numbered", &read(&format!("{all}{}", rows(" ", "\n")), Extension::Text));
+    // Names of something else than positions, and names of some columns only.
+    let altitude = "# $1 = time [s]\n# $2 = altitude [km]\n# $3 = longitude [deg]\n0 1 2\n0 2 3\n";
+    error(altitude, Extension::Text, &["altitude", "rename"]);
+    for head in ["# 1:x 2:y 3:z 4:vx 5:vy 6:vz", "# x y z vx", "# 1: x\n# 2: y\n# 3: z"] {
+        let p = read(&format!("{head}\n{body}"), Extension::Text);
+        let told = p.warnings.join("; ");
+        assert!(told.contains("the rows have 5") && told.contains("x y z"), "{head}: {told}");
+    }
+    // A remark that is no list of names.
+    let p = read("# positions in x and y and z of 3 particles\n1 2 3\n4 5 6\n", Extension::Text);
+    assert!(p.warnings.is_empty(), "{:?}", p.warnings);
+}
+
+/// One line of words below a table is skipped and told; anything else there is an error.
+#[test]
+fn a_line_below_the_table_is_told() {
+    let table = "x y z\n1 2 3\n4 5 6\n";
+    for (hint, separator) in [(Extension::Text, " "), (Extension::Csv, ",")] {
+        let table = table.replace(' ', separator);
+        for below in ["Total: 1234", "END", "total, 2, particles", "mean 2.5 3.5 4.5 extra"] {
+            for end in ["", "\n", "\n\n"] {
+                let p = read(&format!("{table}\n{below}{end}"), hint);
+                assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{below}");
+                let told = &p.warnings[..];
+                assert!(told.len() == 1 && told[0].contains("the last line is no row"), "{told:?}");
+            }
+        }
+        // Comments are no rows anyway, and words of a column of words are.
+        let p = read(&format!("{table}# end\n"), hint);
+        assert!(p.warnings.is_empty(), "{:?}", p.warnings);
+        let words = "type x y z\n1 0 0 0\nwall 1 1 1\n".replace(' ', separator);
+        assert_eq!(read(&words, hint).positions.len(), 2);
+        error(&format!("{table}Total: 2\n7{separator}8{separator}9\n"), hint, &["line"]);
+        error(&format!("{table}Total: 2\nwords\n"), hint, &["line"]);
+    }
+}
+
+/// The particles of a JSON file are found wherever they are, if one place has them.
+#[test]
+fn json_may_have_other_objects_beside_the_particles() {
+    let at = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
+    let list =
+        r#"[{"x":1,"y":2,"z":3,"vx":1,"vy":0,"vz":0},{"x":4,"y":5,"z":6,"vx":2,"vy":0,"vz":0}]"#;
+    let arrays = r#"{"position":[[1,2,3],[4,5,6]],"velocity":[[1,0,0],[2,0,0]]}"#;
+    for (text, warned) in [
+        (format!(r#"{{"meta":{{"solver":"x","dt":0.01}},"particles":{list}}}"#), false),
+        (format!(r#"{{"particles":{arrays},"info":{{"n":3}}}}"#), false),
+        (format!(r#"{{"frame":{{"fluid":{arrays},"time":0.5}},"meta":{{}}}}"#), false),
+        (format!(r#"{{"a":{{"b":{{"c":{arrays},"d":[1,2]}},"e":{{}}}},"f":[{{"g":1}}]}}"#), false),
+        (format!(r#"{{"points":{arrays},"meta":{{"n":2}}}}"#), false),
+        (format!(r#"{{"points":{list},"meta":{{"tags":["a","b"]}}}}"#), false),
+        (format!(r#"{{"frames":[{{"particles":{list}}}],"meta":{{"n":2}}}}"#), false),
+        (format!(r#"{{"box":[[0,0,0],[9,9,9]],"fluid":{list}}}"#), false),
+        (format!(r#"{{"m":{{"domain":{{"x":[0,9],"y":[0,9],"z":[0,9]}}}},"p":{list}}}"#), false),
+        (format!(r#"{{"walls":[[0,0,0],[9,9,9]],"fluid":{list}}}"#), true),
+    ] {
+        let p = read(&text, Extension::Json);
+        assert_eq!(p.positions, at, "{text}");
+        assert_eq!(
+            p.velocities.as_deref(),
+            Some(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]][..]),
+            "{text}"
+        );
+        assert_eq!(p.time, text.contains("time").then_some(0.5), "{text}");
+        let told = p.warnings.iter().any(|warning| warning.contains("not read: `walls`"));
+        assert_eq!((told, p.warnings.is_empty()), (warned, !warned), "{:?}", p.warnings);
+    }
+    let bare = r#"{"meta":{"dt":0.1},"cloud":{"of":[[1,2,3],[4,5,6]]}}"#;
+    assert_eq!(read(bare, Extension::Json).positions, at);
+    for (text, places) in [
+        (
+            format!(r#"{{"run":{{"fluid":{arrays},"wall":{arrays}}},"meta":{{}}}}"#),
+            ["`run.fluid`", "`run.wall`"],
+        ),
+        (format!(r#"{{"a":{list},"b":{{"c":{arrays}}}}}"#), ["`a`", "`b.c`"]),
+        (r#"{"a":[[0,0,0],[1,1,1]],"b":[[1,2,3],[4,5,6]]}"#.into(), ["`a`", "`b`"]),
+    ] {
+        let found = error(&text, Extension::Json, &places);
+        assert!(found.contains("a file of its own"), "{found}");
+    }
+    // Settings beside frames by name.
+    let folder = Folder::new("beside");
+    let text = format!(r#"{{"meta":{{"dt":1}},"frame_1":{list},"frame_2":{list}}}"#);
+    assert_eq!(steps(&folder.put("frames.json", text)).unwrap().len(), 2);
 }

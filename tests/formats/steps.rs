@@ -619,3 +619,145 @@ fn files_of_one_number_are_one_frame_where_told() {
     let frames = expand(&[pvd.display().to_string()], None).unwrap();
     assert_eq!(frames.iter().map(|f| f.also.len()).collect::<Vec<_>>(), [1, 1]);
 }
+
+/// Blocks of rows in one text, each with this before it, under a line of names.
+fn blocks(names: &str, between: impl Fn(usize) -> String, separator: &str) -> String {
+    let names = names.replace(' ', separator);
+    let of = |i: usize| between(i) + &rows(&cloud(i), "", separator);
+    (0..3).fold(names, |text, i| text + &of(i))
+}
+
+/// Without a column of times, lines with a time or the names again separate frames.
+#[test]
+fn times_between_blocks_of_rows_are_frames() {
+    let folder = Folder::new("step-blocks");
+    let time = |i: usize| 0.25 * i as f32;
+    let names = "id x y z vx vy vz\n";
+    for (name, separator) in [("a.txt", " "), ("a.dat", "\t"), ("a.csv", ","), ("a.csv", ";")] {
+        let check = |text: &str, times: &[Option<f64>]| {
+            check(&folder.put(name, text), times);
+            check(&folder.put(&format!("{name}.gz"), gzip(text.as_bytes())), times);
+            // Without a frame number the file is refused.
+            let error = read(&folder.put(name, text)).unwrap_err().to_string();
+            assert!(error.contains("several frames"), "{error}");
+        };
+        check(&blocks(names, |i| format!("# time = {}\n", time(i)), separator), &TIMES);
+        check(&blocks(names, |i| format!("\n\n# t={}\n", time(i)), separator), &TIMES);
+        check(&blocks(names, |i| format!("Time: {}\n", time(i)), separator), &TIMES);
+        check(&blocks(names, |i| format!("timestep{separator}{i}\n"), separator), &[None; 3]);
+        let step =
+            |i: usize| format!("# step {}, {} particles, time [s] = {}\n", 100 * i, 9, time(i));
+        check(&blocks(names, step, separator), &TIMES);
+        check(&blocks(names, |i| format!("# Step {i}\n"), separator), &[None; 3]);
+        // The time is below its block.
+        let behind =
+            |i: usize| if i > 0 { format!("# t = {}\n", time(i - 1)) } else { String::new() };
+        check(&(blocks(names, behind, separator) + "# t = 0.5\n"), &TIMES);
+        // The names are there again, also with the time.
+        let again = names.replace(' ', separator);
+        check(&blocks("", |_| again.clone(), separator), &[None; 3]);
+        check(&blocks("", |_| format!("\n# {again}"), separator), &[None; 3]);
+        check(&blocks("", |i| format!("# time {}\n{again}", time(i)), separator), &TIMES);
+    }
+    // Parts of one frame have one time.
+    let parts = |i: usize| format!("# time = 0.5\n# part {i}\n");
+    let path = folder.put("parts.txt", blocks(names, parts, " "));
+    assert!(steps(&path).unwrap().is_empty());
+    assert_eq!(read(&path).unwrap().positions.len(), 3 * samples::COUNT - 3);
+    // A step that is named by its index alone.
+    let path = folder.put("a.txt", blocks(names, |i| format!("# t = {i}\n"), " "));
+    let found = read_step(&path, Step::new(2, None), &[]).unwrap();
+    assert_eq!((found.positions, found.time), (cloud(2).positions, Some(2.0)));
+}
+
+/// A lattice of n³ particles, moved along x, in rows of text.
+fn lattice(n: usize, moved: f32, separator: &str) -> String {
+    let row = |i: usize| {
+        let [x, y, z] = [i % n, i / n % n, i / n / n].map(|c| c as f32);
+        [x + moved, y, z].map(|c| c.to_string()).join(separator) + "\n"
+    };
+    (0..n * n * n).map(row).collect()
+}
+
+/// Blank lines between blocks of rows separate frames if that is convincing. Else it is told that they may.
+#[test]
+fn blank_lines_between_blocks_may_be_frames() {
+    let folder = Folder::new("step-blanks");
+    for (name, separator) in [("a.xyz", " "), ("a.txt", "\t"), ("a.dat", " "), ("a.csv", ",")] {
+        for (between, head) in [
+            ("\n\n", ""),
+            ("\n\n", "x y z\n"),
+            ("\n", "# x y z\n"),
+            ("\n", ""),
+            ("# ------\n", "x y z\n"),
+            ("\n\n\n# block\n", ""),
+        ] {
+            let all: Vec<String> = (0..3).map(|i| lattice(3, 0.1 * i as f32, separator)).collect();
+            let text = head.replace(' ', separator) + &all.join(between) + "\n\n";
+            let path = folder.put(name, &text);
+            let found = steps(&path).unwrap();
+            assert_eq!(found.len(), 3, "{name} {between:?} {head:?}");
+            for (i, step) in found.iter().enumerate() {
+                let frame = read_step(&path, *step, &[]).unwrap();
+                assert_eq!(frame.positions.len(), 27, "{name} {between:?} {head:?}");
+                assert_eq!(frame.positions[0], [0.1 * i as f32, 0.0, 0.0]);
+                assert!(
+                    frame.warnings[0].contains("delete the lines between"),
+                    "{:?}",
+                    frame.warnings
+                );
+            }
+            let error = read(&path).unwrap_err().to_string();
+            assert!(error.contains("several frames") && error.contains("delete"), "{error}");
+        }
+    }
+    let of = |text: &str| {
+        let path = folder.put("one.txt", text);
+        assert!(steps(&path).unwrap().is_empty(), "{text}");
+        let all = read(&path).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        all.warnings.iter().any(|warning| warning.contains("are taken as one frame"))
+    };
+    // Grids: lines and planes between blank lines. Rings might also be one that grows.
+    let row = |i: usize, j: usize| format!("{} {} {}\n", i, j, (i * j) % 3);
+    let lines: String =
+        (0..9).map(|i| (0..9).map(|j| row(i, j)).collect::<String>() + "\n").collect();
+    assert!(!of(&lines));
+    let plane =
+        |z: usize| (0..81).map(|i| format!("{} {} {z}\n", i % 9, i / 9)).collect::<String>();
+    assert!(!of(&(0..4).map(|z| plane(z) + "\n").collect::<String>()));
+    let ring = |r: usize| {
+        let at = |i: usize| (i as f32 / 16.0 * 6.3).sin_cos();
+        let point = |i: usize| format!("{} {} 0\n", at(i).0 * r as f32, at(i).1 * r as f32);
+        (0..16).map(point).collect::<String>()
+    };
+    assert!(of(&(5..9).map(|r| ring(r) + "\n").collect::<String>()));
+    // Blocks that differ, and those of bodies.
+    let body = |n: usize| lattice(n, 0.0, " ");
+    assert!(of(&format!("{}\n{}", body(4), body(3))));
+    assert!(of(&format!("{}\n\n{}", body(4), body(2))));
+    assert!(of(&format!("{}\n\n# walls\n{}", body(3), body(3))));
+    assert!(of(&format!("{}# walls\n{}", body(3), body(3))));
+    assert!(of(&format!("{}\n{}", body(3), lattice(3, 5.0, " "))));
+    // Blank lines above, below and behind single rows mean nothing.
+    assert!(!of(&format!("\n\nx y z\n\n{}\n{}\n\n\n# end\n", body(1), body(3))));
+}
+
+/// Ids that are all there several times are probably those of several steps.
+#[test]
+fn steps_without_a_time_are_told_by_their_ids() {
+    let row = |i: usize| format!("{},{},{},0\n", i % 20, i % 20, i / 20);
+    let table = |rows: std::ops::Range<usize>| {
+        "id,x,y,z\n".to_string() + &rows.map(row).collect::<String>()
+    };
+    let folder = Folder::new("step-ids");
+    let told = |rows| read(&folder.put("ids.csv", table(rows))).unwrap().warnings.join("; ");
+    assert!(
+        told(0..60).contains("each occurs 3 times: if these are 3 time steps"),
+        "{}",
+        told(0..60)
+    );
+    // Some ids are there more often than others.
+    let some = told(0..50);
+    assert!(some.contains("does not identify them") && !some.contains("time steps"), "{some}");
+    assert!(told(0..20).is_empty());
+}

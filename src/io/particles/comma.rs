@@ -3,17 +3,19 @@
 //! ParaView names components `Points:0` or `Points_0`, DualSPHysics `Pos.x [m]`; plain names are `x,y,z,vx,vy,vz`.
 //! Semicolons and tabs are separators too; then a comma is a decimal comma. Comments and other lines may
 //! precede the names, and a separator may end each line. Without a line of names the first three columns are
-//! the positions. An empty field is NaN.
+//! the positions. An empty field is NaN. Lines between the rows may separate frames, see `blocks`, and one line of
+//! words below them is skipped.
 
 use super::Format;
 use super::asked::Asked;
+use super::blocks::{self, Blocks, Label, Watched};
 use super::bytes::show;
 use super::columns::{AttributeType, Column};
 use super::error::{Place, ReadError};
 use super::heading::{self, Heading, number_with_comma};
 use super::names::may_be_text;
 use super::plan::About;
-use super::source::{Content, Source, inner_error};
+use super::source::{Content, inner_error};
 use super::table::{RowReader, Table};
 use super::tecplot;
 use super::xyz;
@@ -59,22 +61,36 @@ pub(super) fn open_at<'a>(
     delimiter: u8,
     asked: &Asked,
 ) -> Result<Table<'a>, ReadError> {
+    let mut about = About::new(Format::Csv, asked);
+    let header = !heading.names.is_empty();
+    let lines = heading::lines(content)?;
+    let first = lines.iter().find(|line| line.start == heading.at).filter(|_| !header);
+    let first = first.map_or(0, |line| heading::fields(&line.text, Some(delimiter)).len());
+    let columns = if header { heading.names.clone() } else { (0..first).map(unnamed).collect() };
+    let blocks = Blocks::new(&lines, (heading.at, &heading.text), &columns, Some(delimiter));
+    drop(lines);
+    let rows = || blocks::Rows { blocks: blocks.clone(), at: heading.at, lines: heading.line };
+    let part = rows().part(content, asked)?;
+    about.time = part.time;
+    about.warnings.extend(part.told);
+    let source = content.open(part.from, part.to)?;
     let mut builder = csv::ReaderBuilder::new();
     builder.has_headers(false).delimiter(delimiter).trim(csv::Trim::All).buffer_capacity(1 << 16);
     builder.comment(Some(b'#')).flexible(true);
     let mut records = Records {
-        reader: builder.from_reader(content.open(heading.at, content.length())?),
-        lines: heading.line,
+        reader: builder.from_reader(Watched::new(source, part.blocks, part.lines)),
+        rows: rows(),
+        heading: heading::fields(&heading.text, Some(delimiter)),
+        lines: part.lines,
         decimal_comma: delimiter != b',',
         names: Vec::new(),
         columns: Vec::new(),
         record: csv::ByteRecord::new(),
         unread: false,
         numbered: None,
+        told: Vec::new(),
     };
-    let mut about = About::new(Format::Csv, asked);
     let mut columns = Vec::new();
-    let header = !heading.names.is_empty();
     let mut names = heading.names;
     if !header && records.next_record()? {
         records.unread = true;
@@ -88,6 +104,7 @@ pub(super) fn open_at<'a>(
         }
     }
     about.warnings.extend(passed_over(heading.passed));
+    about.warnings.extend(heading.misfit);
     for name in names {
         let keep = about.list(&name, 1, AttributeType::Number);
         records.columns.push(keep.then_some(columns.len()));
@@ -112,8 +129,16 @@ pub(super) fn passed_over(lines: u64) -> Option<String> {
     (lines > 0).then(|| format!("{lines} lines above the names and numbers are skipped"))
 }
 
+/// Warning about a line below the table.
+pub(super) fn below_warning(line: &[u8]) -> String {
+    format!("the last line is no row and is skipped: {}", show(line))
+}
+
 struct Records<'a> {
-    reader: csv::Reader<Source<'a>>,
+    reader: csv::Reader<Watched<'a>>,
+    /// All rows of the file, and the line of names.
+    rows: blocks::Rows,
+    heading: Vec<String>,
     /// Lines before the first row.
     lines: u64,
     /// Whether decimal commas are allowed.
@@ -126,6 +151,7 @@ struct Records<'a> {
     unread: bool,
     /// Whether the first row begins with a number; `None` before it is read.
     numbered: Option<bool>,
+    told: Vec<String>,
 }
 
 impl Records<'_> {
@@ -135,10 +161,28 @@ impl Records<'_> {
             let read = self.read_record()?;
             let blank = self.record.len() == 1 && self.record.iter().all(<[u8]>::is_empty);
             // In a table of one column, such a line is a missing value.
-            if !read || !blank || self.names.len() == 1 {
+            if !read || !((blank && self.names.len() != 1) || self.is_between()) {
                 return Ok(read);
             }
         }
+    }
+
+    /// Whether the record is no row but the names again, or a time, between steps.
+    fn is_between(&self) -> bool {
+        if self.numbered == Some(false) || self.begins_with_number() {
+            return false;
+        }
+        let names = self.heading.iter().map(String::as_bytes);
+        let again = !self.heading.is_empty() && self.record.iter().eq(names);
+        let fields: Vec<&[u8]> = self.record.iter().filter(|field| !field.is_empty()).collect();
+        again || Label::alone(&fields.join(&b' ')).is_some()
+    }
+
+    /// Whether the record, if it is the last one, is a line below the table (`Total: 1234`).
+    fn is_below(&self) -> bool {
+        let few = self.record.len() < self.names.len();
+        let text = self.names.first().is_some_and(|name| may_be_text(name));
+        self.numbered == Some(true) && !self.begins_with_number() && (few || !text)
     }
 
     fn read_record(&mut self) -> Result<bool, ReadError> {
@@ -178,6 +222,19 @@ impl Records<'_> {
 impl RowReader for Records<'_> {
     fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError> {
         if !std::mem::take(&mut self.unread) && !self.next_record()? {
+            self.told.extend(self.reader.get_mut().blocks.told()?);
+            return Ok(false);
+        }
+        if self.is_below() {
+            let fields: Vec<&[u8]> = self.record.iter().filter(|field| !field.is_empty()).collect();
+            let told = below_warning(&fields.join(&b' '));
+            let found = self.record.len().to_string();
+            let error = self.no_row(format!("{} fields in each line", self.names.len()), found);
+            if self.next_record()? {
+                return Err(error);
+            }
+            self.told.push(told);
+            self.told.extend(self.reader.get_mut().blocks.told()?);
             return Ok(false);
         }
         self.row(columns).map_err(|error| match self.next_record() {
@@ -185,6 +242,14 @@ impl RowReader for Records<'_> {
             _ => error,
         })?;
         Ok(true)
+    }
+
+    fn told(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.told)
+    }
+
+    fn blocks(&self) -> Option<blocks::Rows> {
+        Some(self.rows.clone())
     }
 }
 

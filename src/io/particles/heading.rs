@@ -3,11 +3,14 @@
 //!
 //! The names are in the line before the rows, with or without `#` in front; some programs write comments and
 //! other lines above it. A line counts as the line of names if it contains names of positions and has as many
-//! fields as the next line of numbers.
+//! fields as the next line of numbers. In comments the columns may be numbered, in one line or a line each, see
+//! `numbered`.
 
+use super::blocks::Label;
 use super::bytes::parse_number;
 use super::error::ReadError;
-use super::names::{have_positions, is_position, is_suffix};
+use super::names::{self, have_positions, is_position, is_suffix};
+use super::numbered;
 use super::source::Content;
 use super::tecplot;
 use super::text::Text;
@@ -16,6 +19,9 @@ use super::text::Text;
 /// counting comments, `ALL` with comments.
 const LINES: usize = 64;
 const ALL: usize = 4096;
+
+/// Number of lines above the rows in which names that do not fit are told.
+const NEAR: usize = 8;
 
 /// The beginning of a table.
 pub(super) struct Heading {
@@ -29,6 +35,10 @@ pub(super) struct Heading {
     /// Number of lines before the line of names (without names: before the rows) that are neither empty nor
     /// comments.
     pub(super) passed: u64,
+    /// The line of names without its comment mark; empty without one.
+    pub(super) text: Vec<u8>,
+    /// A warning about a comment that names another number of columns than there are.
+    pub(super) misfit: Option<String>,
 }
 
 /// A line, its byte offset, and that of the next line.
@@ -53,7 +63,7 @@ pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
 }
 
 /// The line without its comment mark, and whether it had one.
-fn uncommented(line: &[u8]) -> (&[u8], bool) {
+pub(super) fn uncommented(line: &[u8]) -> (&[u8], bool) {
     let line = line.trim_ascii();
     let mark = [&b"#"[..], b"%", b"//"].iter().find_map(|mark| line.strip_prefix(*mark));
     match mark {
@@ -66,6 +76,11 @@ fn uncommented(line: &[u8]) -> (&[u8], bool) {
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let (rest, marked) = uncommented(line);
     marked || rest.is_empty() || tecplot::is_record(rest)
+}
+
+/// Whether a line is empty, a comment, or a time above rows.
+fn is_between(line: &[u8]) -> bool {
+    is_comment(line) || Label::alone(line.trim_ascii()).is_some()
 }
 
 /// The separator of a line of numbers. A comma is a decimal comma if there is another separator.
@@ -176,7 +191,7 @@ pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
 /// `from` on (comments do not count) if it has no numbers, but the next line has. Returns its index, and that
 /// line of numbers.
 fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
-    let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_comment(&line.text));
+    let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_between(&line.text));
     let ((at, units), (_, row)) = (all.next()?, all.next()?);
     let separator = delimiter(&row.text);
     let number = |field: &String| !field.is_empty() && is_number(field, separator);
@@ -234,15 +249,42 @@ fn add_units(names: &mut [String], line: &[u8], separator: Option<u8>) {
     }
 }
 
+/// A line of names without a title such as `columns:` before them.
+fn behind_title(line: &[u8]) -> &[u8] {
+    const TITLES: [&[u8]; 7] =
+        [b"columns", b"column names", b"fields", b"variables", b"names", b"format", b"data"];
+    let title = line.iter().position(|b| matches!(b, b':' | b'='));
+    let Some((title, rest)) = title.and_then(|at| line.split_at_checked(at)) else { return line };
+    let is = |name: &&[u8]| title.trim_ascii().eq_ignore_ascii_case(name);
+    if TITLES.iter().any(is) { rest.get(1..).unwrap_or_default().trim_ascii() } else { line }
+}
+
+/// Warning that names are not used because there are not as many as columns.
+fn misfit_warning(names: &[String], columns: usize) -> String {
+    let some: Vec<_> = names.iter().take(12).map(String::as_str).collect();
+    let more = if names.len() > some.len() { " ..." } else { "" };
+    format!(
+        "a comment names {} columns ({}{more}), but the rows have {columns}: the names are not used; name all columns \
+         in one line above the rows, such as # x y z vx vy vz",
+        names.len(),
+        some.join(" ")
+    )
+}
+
 impl Heading {
     pub(super) fn of(lines: &[Line]) -> Self {
         let passed = |upto: usize| {
             lines.iter().take(upto).filter(|line| !is_comment(&line.text)).count() as u64
         };
-        let data = |after: usize| lines.iter().skip(after).find(|line| !is_comment(&line.text));
+        let data = |after: usize| lines.iter().skip(after).find(|line| !is_between(&line.text));
+        let (mut list, mut misfit) = (numbered::List::default(), None);
         for (i, line) in lines.iter().enumerate() {
-            let (names_line, _) = uncommented(&line.text);
+            let (names_line, marked) = uncommented(&line.text);
             let names_line = tecplot::variables(names_line).unwrap_or(names_line);
+            let commented = std::str::from_utf8(names_line).ok().filter(|_| marked);
+            let of_list = commented.and_then(|line| list.add(line).map(<[String]>::to_vec));
+            let of_line = commented.and_then(numbered::names);
+            let names_line = if marked { behind_title(names_line) } else { names_line };
             // Units, or a rule, may be between the names and the rows.
             let below = below(lines, i + 1);
             let row = below.map_or_else(|| data(i + 1), |(_, row)| Some(row));
@@ -257,26 +299,49 @@ impl Heading {
             let mut separators = vec![separator];
             separators.extend([b';', b'\t', b'|', b','].map(Some));
             separators.push(None);
-            let names = separators.into_iter().map(|d| fields(names_line, d)).find(|names| {
-                let words = names.iter().any(|name| !is_number(name, None));
-                words
-                    && count.as_ref().is_none_or(|count| count.contains(&names.len()))
-                    && have_positions(names)
+            let fits = |names: &Vec<String>| {
+                count.as_ref().is_none_or(|count| count.contains(&names.len()))
+            };
+            // Numbered names of all columns are names even if none of them is a position.
+            let with_numbers = of_line.or(of_list);
+            let named = with_numbers.clone().filter(|names| {
+                count.is_some() && fits(names) && (names.len() > 2 || have_positions(names))
             });
+            let all = || separators.iter().map(|d| fields(names_line, *d));
+            let names = named.or_else(|| {
+                all().filter(|_| with_numbers.is_none()).find(|names| {
+                    let words = names.iter().any(|name| !is_number(name, None));
+                    words && fits(names) && have_positions(names)
+                })
+            });
+            let near = || lines.iter().skip(i + 1).take(NEAR).any(|line| !is_comment(&line.text));
+            if let (None, Some(_), Some(count)) = (&names, commented, &count)
+                && near()
+            {
+                let known = |names: &Vec<String>| {
+                    let known = |name: &&String| names::known(&names::plain(name));
+                    names.len() > 1
+                        && 2 * names.iter().filter(known).count() > names.len()
+                        && have_positions(names)
+                };
+                let unfit = with_numbers.into_iter().chain(all()).find(known);
+                misfit = unfit.map(|names| misfit_warning(&names, *count.end())).or(misfit);
+            }
             if let Some(mut names) = names {
                 let next = lines.get(i + 1).map(|line| uncommented(&line.text).0);
                 next.into_iter().for_each(|line| add_units(&mut names, line, separator));
                 let passed = passed(i);
+                let text = uncommented(&line.text).0.to_vec();
                 let (i, line) =
                     below.map_or((i, line), |(units, _)| (units, lines.get(units).unwrap_or(line)));
                 let (at, line) = (line.next, i as u64 + 1);
-                return Self { delimiter: separator, names, at, line, passed };
+                return Self { delimiter: separator, names, at, line, passed, text, misfit: None };
             }
             if i > 0 && !is_comment(&line.text) && row.is_none() {
                 break;
             }
         }
-        Self::unnamed(lines, passed)
+        Self { misfit, ..Self::unnamed(lines, passed) }
     }
 
     /// The heading of a table without names of positions.
@@ -302,6 +367,8 @@ impl Heading {
                     at: line.start,
                     line: i as u64,
                     passed: passed(i),
+                    text: Vec::new(),
+                    misfit: None,
                 };
             }
             before = Some(fields);
@@ -314,6 +381,8 @@ impl Heading {
             at: line.map_or_else(|| lines.last().map_or(0, |line| line.next), |line| line.start),
             line: first.unwrap_or(lines.len()) as u64,
             passed: 0,
+            text: Vec::new(),
+            misfit: None,
         }
     }
 }

@@ -4,7 +4,8 @@
 //! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`. In a
 //! flat array the components of vectors follow one another. Vectors may be objects of lists: `{"position": {"x": [0],
 //! "y": [0], "z": [0]}}`. Positions may be keyed by id: `{"7": [x, y, z], ...}`. An
-//! object with a single array of particles, `{"particles": [...]}`, is read as that array. A file with one JSON value
+//! object with particles in a single place, `{"meta": {...}, "run": {"particles": [...]}}`, is read as that place, see
+//! `json_places`. A file with one JSON value
 //! per line is read as an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments, and commas
 //! after the last value, are ignored. Houdini's JSON geometry begins with `"fileversion"` and is refused.
 //!
@@ -23,7 +24,7 @@ use super::error::{Place, ReadError};
 use super::names;
 use super::source::Content;
 use super::steps::Step;
-use super::{Format, Particles, json_frames};
+use super::{Format, Particles, json_frames, json_places};
 
 /// The frames of a file; empty for one frame.
 pub(super) fn steps(content: &Content<'_>) -> Result<Vec<Step>, ReadError> {
@@ -227,6 +228,9 @@ fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> 
     }
     let columns: Vec<_> =
         map.iter().filter(|(name, value)| asked.wants(name) && value.is_object()).collect();
+    // Such an object may also hold the particles.
+    let holds = columns.iter().any(|(_, v)| v.as_object().is_some_and(json_places::has_positions));
+    let columns: Vec<_> = columns.into_iter().filter(|_| !holds).collect();
     let names: Vec<_> = columns.iter().map(|(name, _)| *name).collect();
     if names::may_have_positions(&names) {
         for value in map.values_mut() {
@@ -418,17 +422,13 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
     if let Some(rows) = rows {
         return list(rows, table);
     }
-    let known: Vec<&String> = map.keys().filter(|name| table.asked.wants(name)).collect();
-    if !names::may_have_positions(&known) {
-        // The particles may be one level deeper.
-        let mut inner: Vec<_> = map
-            .into_iter()
-            .filter(|(_, value)| value.is_object() || is_list_of_particles(value))
-            .collect();
-        if let [(name, value)] = inner.as_mut_slice() {
-            return match std::mem::take(value) {
+    if !json_places::has_positions(&map) {
+        // The particles may be deeper.
+        if let Some((value, time)) = json_places::only(&mut map, &mut table.warnings)? {
+            table.time = table.time.or(time);
+            return match value {
                 Value::Array(rows) if rows.first().is_some_and(Value::is_array) => {
-                    several_frames(&rows, &format!("`{name}`"))?;
+                    several_frames(&rows, "the list of particles")?;
                     list(rows, table)
                 }
                 Value::Array(rows) => list(rows, table),
@@ -436,19 +436,16 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
                 _ => Ok(()),
             };
         }
-        let fluid = |(name, value): &(String, Value)| {
-            let fields: Vec<_> = value.as_object()?.keys().collect();
-            names::may_have_positions(&fields).then(|| format!("`{name}`"))
-        };
-        let fluids: Vec<String> = inner.iter().filter_map(fluid).collect();
-        if fluids.len() > 1 {
-            return Err(ReadError::Unsupported {
-                what: format!(
-                    "a file with positions inside several objects: {}",
-                    fluids.join(", ")
-                ),
-                advice: "write each object to a file of its own",
-            });
+        let mut inner: Vec<_> = map
+            .into_iter()
+            .filter(|(_, value)| value.is_object() || is_list_of_particles(value))
+            .collect();
+        if let [(_, value)] = inner.as_mut_slice() {
+            return match std::mem::take(value) {
+                Value::Array(rows) => list(rows, table),
+                Value::Object(map) => object(map, table),
+                _ => Ok(()),
+            };
         }
         for (name, _) in inner {
             table.list(&name, 1, AttributeType::Other);

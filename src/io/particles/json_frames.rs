@@ -82,6 +82,11 @@ fn of_object(map: &Map<String, Value>) -> Option<Frames> {
     if let (Some((name, _)), None) = (several.next(), several.next()) {
         return Some(Frames::Behind(name.clone()));
     }
+    // Settings may be beside the frames.
+    let other = |(name, value): &(&String, &Value)| {
+        value.is_object() && number(name).is_none() && !is_frame(value)
+    };
+    let held = held.filter(|each| !other(each));
     let numbered =
         held.map(|(name, value)| Some((number(name)?, name)).filter(|_| is_frame(value)));
     let mut all: Vec<(u64, &String)> = numbered.collect::<Option<_>>()?;

@@ -141,6 +141,7 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
             false,
             (&names, basis),
             about,
+            None,
         ));
     }
 }

@@ -46,6 +46,11 @@ pub(super) trait Stream: Send {
     fn finish(&mut self) -> Result<u64, ReadError> {
         Ok(0)
     }
+
+    /// Warnings after the last particle.
+    fn told(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// Where the particles of a file are, and their attributes.
@@ -199,12 +204,13 @@ impl<'a> Plan<'a> {
     pub(super) fn read(self) -> Result<Particles, ReadError> {
         let mut columns = Vec::new();
         let count = self.rows.unwrap_or(usize::MAX);
-        let mut room = Vec::new();
+        let (mut room, mut told) = (Vec::new(), Vec::new());
         for (track, used) in self.tracks() {
             let mut own = track.columns.clone();
             let mut stream = (track.open)(used)?;
             stream.read(count, &mut own, &mut room)?;
             stream.finish()?;
+            told.extend(stream.told());
             columns.append(&mut own);
         }
         let columns = Columns::new(columns);
@@ -212,6 +218,7 @@ impl<'a> Plan<'a> {
         let mut particles = survey.part(&self.roles, columns, self.format);
         survey.drop_from(&mut particles);
         let mut warnings = self.warnings;
+        warnings.extend(told);
         warnings.extend(survey.finish()?);
         let time = self.time.or(survey.time());
         let (attributes, mut meanings) = (self.attributes, self.meanings);
@@ -257,6 +264,7 @@ impl<'a> Plan<'a> {
         about.meanings.clone_from(&self.meanings);
         pass.survey.settle(&mut about.meanings);
         about.warnings.clone_from(&self.warnings);
+        about.warnings.extend(pass.streams.iter_mut().flat_map(|stream| stream.told()));
         about.warnings.extend(pass.survey.finish()?);
         about.time = self.time.or(pass.survey.time());
         let (rows, total) = (pass.survey.seen(), pass.survey.kept());

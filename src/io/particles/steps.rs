@@ -7,7 +7,8 @@ use super::error::ReadError;
 use super::format::{self, Extension};
 use super::source::{Content, Input, Source};
 use super::{
-    Particles, bytes, index, json, json_frames, lammps, numpy, parts, read_asked, tecplot, xyz,
+    Particles, bytes, comma, index, json, json_frames, lammps, numpy, parts, read_asked, tecplot,
+    xyz,
 };
 
 /// A frame of a file that holds several.
@@ -27,12 +28,14 @@ pub struct Step {
 /// Where a frame is in a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Span {
-    start: u64,
-    end: u64,
+    pub(super) start: u64,
+    pub(super) end: u64,
     /// Number of lines before it.
-    lines: u64,
+    pub(super) lines: u64,
     /// Length of the whole text.
     length: u64,
+    /// Whether the frames may be parts of one instead, see `blocks`.
+    pub(super) unsure: bool,
 }
 
 impl Step {
@@ -45,6 +48,7 @@ impl Step {
 }
 
 /// Where a frame begins in a text.
+#[derive(Clone)]
 pub(super) struct Start {
     pub(super) at: u64,
     /// Number of lines before it.
@@ -55,7 +59,8 @@ pub(super) struct Start {
 /// The frames of a file, in the file's order. Frames that a column of times, times of HDF5 groups, or numbers in the
 /// names of HDF5 groups or JSON members tell apart are in the order of these instead. The list is empty for a file with
 /// one frame. Recognized are XYZ text (each frame begins with a count of particles) and LAMMPS dumps with several
-/// frames, zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of any format with a column
+/// frames, tables of text with the time (`# time = 0.1`), the line of names or blank lines between blocks of rows,
+/// zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of any format with a column
 /// of times or steps, and HDF5 and XDMF with steps. If necessary, the whole file is read for this.
 ///
 /// # Errors
@@ -94,17 +99,28 @@ fn found(path: &Path) -> Result<Vec<Step>, ReadError> {
     start.clear();
     Source::new(&input, &input.whole(gzip)).fill(1 << 12, &mut start)?;
     let starts = match format::detect(&start, hint) {
-        Ok(format::Reader::XyzText | format::Reader::Csv) => {
+        Ok(kind @ (format::Reader::XyzText | format::Reader::Csv)) => {
             let content = Content::new(&input, gzip)?;
             let zones = tecplot::starts(&content)?;
             if !zones.is_empty() {
-                return Ok(spans(&content, &zones));
+                return Ok(spans(&content, &zones, false));
             }
-            spans(&content, &xyz::starts(&content, None)?)
+            let starts = xyz::starts(&content, None)?;
+            let open = if kind == format::Reader::Csv { comma::open } else { xyz::open };
+            match starts.is_empty() {
+                false => spans(&content, &starts, false),
+                true => match open(&content, &Asked::default())?.rows.blocks() {
+                    Some(rows) => {
+                        let (starts, sure) = rows.starts(&content)?;
+                        spans(&content, &starts, !sure)
+                    }
+                    None => Vec::new(),
+                },
+            }
         }
         Ok(format::Reader::Lammps) => {
             let content = Content::new(&input, gzip)?;
-            spans(&content, &lammps::starts(&content, None)?)
+            spans(&content, &lammps::starts(&content, None)?, false)
         }
         Ok(format::Reader::Json) => return json::steps(&Content::new(&input, gzip)?),
         Ok(kind @ (format::Reader::Npy | format::Reader::Npz)) if !gzip => {
@@ -125,14 +141,20 @@ fn found(path: &Path) -> Result<Vec<Step>, ReadError> {
 }
 
 /// The frames of a text, given where they begin.
-fn spans(content: &Content<'_>, starts: &[Start]) -> Vec<Step> {
+pub(super) fn spans(content: &Content<'_>, starts: &[Start], unsure: bool) -> Vec<Step> {
     let length = content.length();
     let ends = starts.iter().skip(1).map(|start| start.at).chain([length]);
     let span = |(index, (start, end)): (usize, (&Start, u64))| {
-        let text = Some(Span { start: start.at, end, lines: start.lines, length });
+        let text = Some(Span { start: start.at, end, lines: start.lines, length, unsure });
         Step { text, ..Step::new(index, start.time) }
     };
     starts.iter().zip(ends).enumerate().map(span).collect()
+}
+
+/// Where a frame is in a text; `None` if that is unknown.
+pub(super) fn known_span(content: &Content<'_>, step: Step) -> Option<Span> {
+    // A file of another length was written anew.
+    step.text.filter(|span| span.length == content.length())
 }
 
 /// The part of a text that holds the requested frame, and the frame's time. `None` if none was requested, or if its
@@ -142,9 +164,7 @@ pub(super) fn known_part<'a>(
     asked: &Asked,
 ) -> Result<Option<(Content<'a>, Option<f64>)>, ReadError> {
     let Some(step) = asked.step() else { return Ok(None) };
-    // A file of another length was written anew.
-    let span = step.text.filter(|span| span.length == content.length());
-    let Some(Span { start, end, lines, .. }) = span else { return Ok(None) };
+    let Some(Span { start, end, lines, .. }) = known_span(content, step) else { return Ok(None) };
     Ok(Some((content.part(start, end, lines)?, step.time)))
 }
 

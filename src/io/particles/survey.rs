@@ -153,6 +153,12 @@ impl Repeats {
         if all == 0 { 0.0 } else { 1.0 - self.counts.len() as f64 / all as f64 }
     }
 
+    /// How often each value occurs, if all occur equally often and not once.
+    fn each(&self) -> Option<usize> {
+        let first = self.counts.values().next().copied().filter(|count| *count > 1)?;
+        self.counts.values().all(|count| *count == first).then_some(first)
+    }
+
     fn most(&self) -> usize {
         self.counts.values().copied().max().unwrap_or(0)
     }
@@ -503,9 +509,15 @@ impl Survey {
             ))
         });
         let repeated = (self.ids.is_none() && self.repeated_ids()).then(|| {
+            let steps = self.numbers.each().map_or(String::new(), |count| {
+                format!(
+                    "; each occurs {count} times: if these are {count} time steps, write a column `time`, or one file \
+                     per frame"
+                )
+            });
             format!(
                 "attribute `{}` is dropped: {:.0} % of its values occur in several particles, so it does not identify \
-                 them",
+                 them{steps}",
                 self.numbered.as_deref().unwrap_or("id"),
                 100.0 * self.numbers.share()
             )

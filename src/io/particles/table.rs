@@ -1,6 +1,7 @@
 //! Reads particles from rows of different lengths in sequence, mostly text: CSV, XYZ, GEO and PLY.
 
 use super::asked::Asked;
+use super::blocks;
 use super::columns::Column;
 use super::error::ReadError;
 use super::plan::{About, Plan, Stream, Track};
@@ -21,6 +22,16 @@ pub(super) struct Table<'a> {
 pub(super) trait RowReader: Send {
     /// Appends the values of the next row to the columns; false at the end.
     fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError>;
+
+    /// Warnings after the last row.
+    fn told(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The blocks of the table, before the first row is read; `None` if its format has other frames.
+    fn blocks(&self) -> Option<blocks::Rows> {
+        None
+    }
 }
 
 /// Reads the beginning of a file, up to the first row.
@@ -68,6 +79,10 @@ impl Stream for TableStream<'_> {
             used(columns, &self.used, false).for_each(|column| column.data.clear());
         }
         Ok(count)
+    }
+
+    fn told(&mut self) -> Vec<String> {
+        self.rows.told()
     }
 }
 

@@ -1,7 +1,8 @@
 //! Reads XYZ: one line of numbers per particle, or raw little-endian `f32` triples without a header.
 //!
 //! The first three numbers of a line are the position; spaces, tabs, commas and semicolons separate the
-//! numbers. Empty lines, and lines that begin with `#`, `%` or `//`, are skipped. A line of names (`x y z vx vy
+//! numbers. Empty lines, and lines that begin with `#`, `%` or `//`, are skipped, unless they separate frames, see
+//! `blocks`. One line of words below the rows is skipped. A line of names (`x y z vx vy
 //! vz`) before the numbers, with `#` or without, names the columns.
 //!
 //! A first line with a single number is the count, as in chemistry. The next line is then a comment, which
@@ -11,6 +12,7 @@
 
 use super::Format;
 use super::asked::Asked;
+use super::blocks::{self, Blocks};
 use super::bytes::{parse_number, show};
 use super::columns::{AttributeType, Column, PLACED};
 use super::comma::{self, passed_over, unnamed};
@@ -132,8 +134,9 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
     if tecplot::is(&lines) {
         return tecplot::open(content, &lines, asked);
     }
+    let counted = Counted::of(&lines).is_some();
     drop(lines);
-    if let Some((content, time)) = steps::asked_part(content, asked, starts)? {
+    if counted && let Some((content, time)) = steps::asked_part(content, asked, starts)? {
         let mut table = open_one(&content, &asked.clone().of_step(None))?;
         table.about.time = table.about.time.or(time);
         return Ok(table);
@@ -157,6 +160,7 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
         return comma::open_at(content, heading, delimiter, asked);
     }
     about.warnings.extend(passed_over(heading.passed));
+    about.warnings.extend(heading.misfit);
     let first = lines.iter().find(|line| line.start >= heading.at && !is_comment(&line.text));
     let mut names = heading.names;
     let commas = heading.delimiter == Some(b',');
@@ -187,8 +191,20 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
     if names.is_empty() {
         names.extend((0..3).map(unnamed));
     }
-    let text = Text::new(content.open(heading.at, content.length())?);
-    Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, None), about))
+    if promised.is_some() {
+        let text = Text::new(content.open(heading.at, content.length())?);
+        let number = content.lines_before() + heading.line;
+        return Ok(rows(text, number, promised, commas, (&names, None), about, None));
+    }
+    let (at, head) = (heading.at, &heading.text);
+    let blocks = Blocks::new(&lines, (at, head), &names, commas.then_some(b','));
+    let all = blocks::Rows { blocks, at, lines: heading.line };
+    let part = all.clone().part(content, asked)?;
+    about.time = part.time;
+    about.warnings.extend(part.told);
+    let text = Text::new(content.open(part.from, part.to)?);
+    let blocks = Some((part.blocks, all));
+    Ok(rows(text, part.lines, None, commas, (&names, None), about, blocks))
 }
 
 /// The box whose edges scale positions.
@@ -231,6 +247,7 @@ pub(super) fn rows<'a>(
     commas: bool,
     (names, basis): (&[String], Option<Basis>),
     mut about: About,
+    blocks: Option<(Blocks, blocks::Rows)>,
 ) -> Table<'a> {
     let mut rows = Lines {
         text,
@@ -242,6 +259,9 @@ pub(super) fn rows<'a>(
         columns: Vec::new(),
         basis: basis.map(|basis| (basis, [None; 3])),
         zones: None,
+        blocks,
+        numbered: None,
+        told: Vec::new(),
     };
     let mut columns = Vec::new();
     for name in names {
@@ -297,6 +317,9 @@ pub(super) fn rows_of_zones<'a>(
         columns: taken,
         basis: None,
         zones,
+        blocks: None,
+        numbered: None,
+        told: Vec::new(),
     };
     Table { columns, about, rows: Box::new(rows) }
 }
@@ -409,6 +432,8 @@ impl Counted {
             at: first.next,
             line: at as u64 + 1,
             passed: 0,
+            text: Vec::new(),
+            misfit: None,
         };
         let time = None;
         let Some(comment) = lines.get(at + 1) else { return Some(Self { heading, count, time }) };
@@ -476,6 +501,11 @@ struct Lines<'a> {
     basis: Option<(Basis, [Option<usize>; 3])>,
     /// The Tecplot zones of the rows.
     zones: Option<tecplot::Zones>,
+    /// What may separate steps of a table without a count, and all rows of the file.
+    blocks: Option<(Blocks, blocks::Rows)>,
+    /// Whether the first row begins with a number; `None` before it is read.
+    numbered: Option<bool>,
+    told: Vec<String>,
 }
 
 impl Lines<'_> {
@@ -483,6 +513,9 @@ impl Lines<'_> {
     fn end(&mut self) -> Result<(), ReadError> {
         if let Some(zones) = &mut self.zones {
             zones.end(self.number)?;
+        }
+        if let Some((blocks, _)) = &mut self.blocks {
+            self.told.extend(blocks.told()?);
         }
         match self.promised {
             Some(expected) if expected != self.rows => {
@@ -519,7 +552,12 @@ impl RowReader for Lines<'_> {
         while let Some(line) = self.text.line()? {
             self.number += 1;
             let line = line.trim_ascii();
-            if is_comment(line) {
+            let mut passed = is_comment(line);
+            if let Some((blocks, _)) = &mut self.blocks {
+                blocks.line(line, 0, self.number - 1);
+                passed |= blocks.passes(line);
+            }
+            if passed {
                 if let Some(zones) = &mut self.zones {
                     zones.pass(line, self.number)?;
                 }
@@ -534,6 +572,27 @@ impl RowReader for Lines<'_> {
             let next = || line.iter().all(u8::is_ascii_digit) || line.starts_with(b"ITEM:");
             if self.promised == Some(self.rows) && next() {
                 return Err(several_frames(self.number));
+            }
+            let digit = line.first().is_some_and(|b| b.is_ascii_digit() || b"+-.".contains(b));
+            let begins =
+                digit || words(line, self.commas).next().is_some_and(|w| number(w).is_some());
+            let whole = self.promised.is_none_or(|promised| promised == self.rows);
+            let other = *self.numbered.get_or_insert(begins) && !begins;
+            // A line of words below the table.
+            if other && whole && self.zones.is_none() && !self.dump {
+                let empty = |c: &Column| Column::new(&c.name, c.components, AttributeType::Number);
+                let mut none: Vec<Column> = columns.iter().map(empty).collect();
+                let read = row(line, self.number, self.commas, &self.columns, &mut none);
+                if let Err(error) = read {
+                    let told = comma::below_warning(line);
+                    self.text.skip_space()?;
+                    if !self.text.ahead(1)?.is_empty() {
+                        return Err(error);
+                    }
+                    self.told.push(told);
+                    self.end()?;
+                    return Ok(false);
+                }
             }
             let read = row(line, self.number, self.commas, &self.columns, columns);
             if let Ok(true) = read {
@@ -564,6 +623,14 @@ impl RowReader for Lines<'_> {
         }
         self.end()?;
         Ok(false)
+    }
+
+    fn told(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.told)
+    }
+
+    fn blocks(&self) -> Option<blocks::Rows> {
+        self.blocks.as_ref().map(|(_, all)| all.clone())
     }
 }
 
