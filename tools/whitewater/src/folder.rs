@@ -233,6 +233,13 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     patterns
 }
 
+/// Where a number begins whose first digit is at this byte: a minus belongs to it if it begins the name or follows a
+/// separator.
+fn with_sign(name: &str, digit: usize) -> usize {
+    let Some(before) = name[..digit].strip_suffix('-') else { return digit };
+    if before.ends_with(char::is_alphanumeric) { digit } else { before.len() }
+}
+
 /// Byte range of the last number with a decimal point or exponent in a file name, before the extension.
 fn time(name: &str) -> Option<Range<usize>> {
     let digit = |at: usize| name.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
@@ -258,7 +265,7 @@ fn time(name: &str) -> Option<Range<usize>> {
         // point are the rank of a process.
         let padded = whole - start > 1 && name[start..].starts_with('0');
         if end > whole && end < name.len() && !padded {
-            found = Some(start..end);
+            found = Some(with_sign(name, start)..end);
         }
         at = end;
     }
@@ -277,7 +284,7 @@ fn time_with_unit(name: &str) -> Option<Range<usize>> {
     let start = number.rfind(|c: char| !digit(c) && !matches!(c, '.' | 'e' | '+' | '-'));
     let start = start.map_or(0, |at| at + number[at..].chars().next().map_or(1, char::len_utf8));
     let leading = number[start..].find(digit)?;
-    Some(start + leading..end)
+    Some(with_sign(name, start + leading)..end)
 }
 
 /// Pattern of a file that exists in each of several numbered folders: `DIR/*/cloud.vtp`.
@@ -336,6 +343,7 @@ fn pattern(name: &str) -> String {
         },
     };
     let start = name[..=before].rfind(|c: char| !digits(c)).map_or(0, |at| at + 1);
+    let start = with_sign(name, start);
     format!("{}*{}", &name[..start], &name[after..])
 }
 
@@ -385,6 +393,9 @@ mod tests {
             ("8.csv", "*.csv"),
             ("fluid_10_rank0.csv", "fluid_*_rank*.csv"),
             ("f_proc3.vtu", "f_proc*.vtu"),
+            ("step_-1.csv", "step_*.csv"),
+            ("-1.csv", "*.csv"),
+            ("step-1.csv", "step-*.csv"),
         ] {
             assert_eq!(pattern(name), expected);
         }
@@ -482,6 +493,20 @@ mod tests {
         let frames = crate::frames::files(&[at("units")], false).unwrap();
         let times: Vec<_> = frames.iter().map(|frame| frame.time.unwrap()).collect();
         assert_eq!(times, [0.0, 9.0e-4, 9.5e-4, 1.0e-3, 2.0e-3, 1.5]);
+        // Times before the start.
+        for (folder, times) in [
+            ("before", ["-0.1", "0.0", "0.1"]),
+            ("whole", ["-1", "0", "1"]),
+            ("inunit", ["-5ms", "0ms", "5ms"]),
+        ] {
+            std::fs::create_dir_all(at(folder)).unwrap();
+            for time in times {
+                write(&format!("{folder}/out_{time}.csv"));
+            }
+            let frames = crate::frames::files(&[at(folder)], false).unwrap();
+            let first = frames[0].path.file_name().unwrap().to_string_lossy().into_owned();
+            assert_eq!((frames.len(), first), (3, format!("out_{}.csv", times[0])));
+        }
         // Files of MATLAB are particles, except beside other files.
         std::fs::create_dir_all(at("matlab")).unwrap();
         write("matlab/w_1.mat");

@@ -43,7 +43,26 @@ pub fn rate(reader: &Reader<'_>, all: &[Frame], own: Has) -> Option<(f32, &'stat
     let by_motion = if own.velocities && own.ids { by_motion(reader, all) } else { None };
     by_motion
         .map(|rate| (rate, "from velocities and positions"))
-        .or_else(|| reader.rate().map(|rate| (rate, "from the frames' times")))
+        .or_else(|| by_time(reader, all).map(|rate| (rate, "from the frames' times")))
+}
+
+/// Min difference of the times of two frames; numbers with a smaller difference are not taken for seconds.
+const LEAST: f32 = 1.0e-4;
+
+/// Frame numbers per second from the times of two neighbouring frames: those that can be read, else those whose times
+/// are in a list or in their names, although a file is missing.
+pub fn by_time(reader: &Reader<'_>, all: &[Frame]) -> Option<f32> {
+    let listed = || {
+        let times = |pair: &[Frame]| {
+            let [a, b] = pair else { return None };
+            let (seconds, numbers) = ((b.time? - a.time?) as f32, b.number.checked_sub(a.number)?);
+            let named = a.in_seconds && b.in_seconds;
+            let fits = if named { seconds > 0.0 } else { seconds > LEAST && seconds < 1.0 };
+            fits.then_some(numbers as f32 / seconds)
+        };
+        times(all.windows(2).find(|pair| pair.iter().all(|frame| frame.time.is_some()))?)
+    };
+    reader.rate().or_else(listed)
 }
 
 /// Frame numbers per second, from the velocities and positions of two consecutive frames in the middle of the sequence.
@@ -209,5 +228,38 @@ impl Probes {
         let median = *sorted.get(sorted.len() / 2)?;
         let high = *sorted.get(sorted.len() * 9 / 10)?;
         Some(if (600.0..1500.0).contains(&median) { 1000.0 } else { high })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fluids::Fluids;
+    use whitewater::io::particles::sequence;
+
+    /// The list of a sequence tells the frame rate although a file of it is missing.
+    #[test]
+    fn a_list_tells_the_rate_of_frames_that_are_missing() {
+        let folder = tempfile::tempdir().unwrap();
+        let set =
+            |i: usize| format!("<DataSet timestep=\"{}\" file=\"{i}.csv\"/>", 0.04 * i as f64);
+        for i in [0, 2] {
+            std::fs::write(folder.path().join(format!("{i}.csv")), "x,y,z\n1,2,3\n").unwrap();
+        }
+        let list = folder.path().join("a.pvd");
+        let sets: String = (0..3).map(set).collect();
+        std::fs::write(&list, format!("<VTKFile><Collection>{sets}</Collection></VTKFile>"))
+            .unwrap();
+        let all = sequence::expand(&[list.display().to_string()], None).unwrap();
+        let fluids = Fluids::default();
+        let reader = Reader::new(&all, Placing::default(), (&[], &fluids), None);
+        assert_eq!(rate(&reader, &all, Has::default()).unwrap().0.round(), 25.0);
+        // Step numbers are no times.
+        let steps: Vec<Frame> = all
+            .iter()
+            .map(|frame| Frame { time: Some(frame.number as f64), ..frame.clone() })
+            .collect();
+        let reader = Reader::new(&steps, Placing::default(), (&[], &fluids), None);
+        assert_eq!(rate(&reader, &steps, Has::default()), None);
     }
 }

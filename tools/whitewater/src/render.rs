@@ -13,7 +13,7 @@ use crate::frames;
 use crate::looks::{Found, Sequence, look, round};
 use crate::output;
 use crate::placing::Placing;
-use crate::probes::{Probes, step_of};
+use crate::probes::{self, Probes, step_of};
 use crate::progress::Progress;
 use crate::radii;
 use crate::reader::{DEFAULT_FPS, Reader};
@@ -135,7 +135,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         Some(Radius::Metres(_)) => reader.alike(),
         None => {}
     }
-    let by_time = if args.fps.is_none() { reader.rate() } else { None };
+    let by_time = if args.fps.is_none() { probes::by_time(&reader, &all) } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
     placing.origin = reader.origin();
