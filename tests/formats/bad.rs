@@ -325,8 +325,9 @@ fn ids_that_do_not_fit_are_dropped() {
 /// The lower halves of ids beyond 32 bits may repeat: here they are numbers of particles within a process.
 #[test]
 fn long_ids_differ_as_a_whole() {
-    let row =
-        |i: u64| format!("{},{},{},{}\n", i % 10, i / 10 % 10, i / 100, (i / 50) << 32 | i % 50);
+    let row = |i: u64| {
+        format!("{},{},{},{}\n", i % 10, i / 10 % 10, i / 100, ((i / 50) << 32) | (i % 50))
+    };
     let frame = |order: fn(u64) -> u64| {
         let text: String = (0..1000).map(|i| row(order(i))).collect();
         read_bytes(format!("x,y,z,id\n{text}").as_bytes(), Extension::Csv).unwrap()

@@ -64,7 +64,8 @@ struct Loop {
 }
 
 impl Program {
-    fn new(seed: u32) -> Vec<u32> {
+    /// The words of a module with a random function.
+    fn module(seed: u32) -> Vec<u32> {
         let mut program =
             Self { random: Random(seed), code: Vec::new(), next: FIRST_FREE, block: 0 };
         program.emit(FUNCTION, &[VOID, MAIN, 0, SIGNATURE]);
@@ -465,10 +466,8 @@ fn check(code: &[u32]) -> Result<(), String> {
     for (at, opcode, words) in instructions(code, first..code.len()) {
         if opcode == LABEL {
             results.insert(words[1]);
-        } else if words.len() > 2 && types.contains(&words[1]) {
-            if !results.insert(words[2]) {
-                return Err(format!("{} is there twice", words[2]));
-            }
+        } else if words.len() > 2 && types.contains(&words[1]) && !results.insert(words[2]) {
+            return Err(format!("{} is there twice", words[2]));
         }
         if opcode == FUNCTION_END {
             check_function(code, start..at)?;
@@ -562,7 +561,7 @@ fn random_programs_compute_the_same() {
     let mut random = Random(1);
     let (mut before, mut after, mut stores) = (0, 0, 0);
     for seed in 0..4000 {
-        let program = Program::new(seed);
+        let program = Program::module(seed);
         for _ in 0..4 {
             let constants = constants(&mut random);
             let special = specialized(&program, &constants);
