@@ -1,7 +1,7 @@
 //! Specializes SPIR-V before the driver sees it: constants get their values, and code that these rule out is removed.
 //!
-//! Every driver does this itself, but after it has translated the whole module. The large shaders have many variants,
-//! each of which uses a third to half of the code: a driver on the CPU spends most of the start-up time on the rest.
+//! A driver does this itself, but only after it has translated the whole module. The large shaders have many variants,
+//! each of which uses a third to half of the code. Without the rest, pipelines are created sooner.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::ops::Range;
@@ -54,7 +54,7 @@ const SPEC_ID: u32 = 1;
 /// Words of a module's header.
 const HEADER: usize = 5;
 
-/// What is known of a result, a boolean (0 or 1) or an integer of 32 bits.
+/// What is known about the value of an id, which is a boolean (0 or 1) or a 32-bit integer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Value {
     /// Nothing has been computed yet.
@@ -83,7 +83,7 @@ fn push(out: &mut Vec<u32>, opcode: u32, operands: &[u32]) {
     out.extend(operands);
 }
 
-/// The result of an operation on what is known of its operands.
+/// Folds an operation, as far as its operands are known.
 fn result(opcode: u32, of: &[Value]) -> Value {
     let both = |f: fn(u32, u32) -> bool| match *of {
         [Known(a), Known(b)] => Known(f(a, b).into()),
@@ -113,10 +113,10 @@ fn result(opcode: u32, of: &[Value]) -> Value {
     }
 }
 
-/// A module with what is known of its results.
+/// A module, and what is known about the values of its ids.
 struct Module<'a> {
     code: &'a [u32],
-    /// By id. Results that are not followed are [`Varying`].
+    /// By id. Ids whose values are not followed are [`Varying`].
     values: Vec<Value>,
     booleans: HashSet<u32>,
     integers: HashSet<u32>,
@@ -151,7 +151,7 @@ pub fn specialized(code: &[u32], constants: &[(u32, u32)]) -> Vec<u32> {
             first = end;
         }
     }
-    // What was removed loses its names and decorations.
+    // Names and decorations of removed ids are removed too.
     let mut out = code[..HEADER].to_vec();
     for (_, opcode, words) in instructions(&globals, 0..globals.len()) {
         if !(matches!(opcode, DECORATE | NAME) && module.removed.contains(&words[1])) {

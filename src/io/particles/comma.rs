@@ -87,6 +87,7 @@ pub(super) fn open_at<'a>(
         columns: Vec::new(),
         record: csv::ByteRecord::new(),
         unread: false,
+        is_number_first: false,
         numbered: None,
         told: Vec::new(),
     };
@@ -149,6 +150,8 @@ struct Records<'a> {
     record: csv::ByteRecord,
     /// Whether a record was read that was not returned yet.
     unread: bool,
+    /// Whether the record begins with a number.
+    is_number_first: bool,
     /// Whether the first row begins with a number; `None` before it is read.
     numbered: Option<bool>,
     told: Vec<String>,
@@ -169,7 +172,7 @@ impl Records<'_> {
 
     /// Whether the record is no row but the names again, or a time, between steps.
     fn is_between(&self) -> bool {
-        if self.numbered == Some(false) || self.begins_with_number() {
+        if self.numbered == Some(false) || self.is_number_first {
             return false;
         }
         let names = self.heading.iter().map(String::as_bytes);
@@ -180,14 +183,14 @@ impl Records<'_> {
 
     /// Whether the record, if it is the last one, is a line below the table (`Total: 1234`).
     fn is_below(&self) -> bool {
-        let few = self.record.len() < self.names.len();
-        let text = self.names.first().is_some_and(|name| may_be_text(name));
-        self.numbered == Some(true) && !self.begins_with_number() && (few || !text)
+        let few = || self.record.len() < self.names.len();
+        let text = || self.names.first().is_some_and(|name| may_be_text(name));
+        self.numbered == Some(true) && !self.is_number_first && (few() || !text())
     }
 
     fn read_record(&mut self) -> Result<bool, ReadError> {
         let lines = self.lines;
-        self.reader.read_byte_record(&mut self.record).map_err(|e| {
+        let read = self.reader.read_byte_record(&mut self.record).map_err(|e| {
             let line = e.position().map_or(Place::Unknown, |p| Place::Line(lines + p.line()));
             let expected = format!("{} fields in each line", self.names.len());
             let text = e.to_string();
@@ -195,23 +198,21 @@ impl Records<'_> {
                 csv::ErrorKind::Io(reason) => inner_error(reason),
                 _ => ReadError::table(expected, text, line),
             }
-        })
+        })?;
+        let first = String::from_utf8_lossy(self.record.iter().next().unwrap_or_default());
+        self.is_number_first = heading::is_number(&first, self.decimal_comma.then_some(b';'));
+        Ok(read)
     }
 
     /// The error for a line that is no row of values; if the line begins a second table, an error that says so.
     fn no_row(&self, expected: String, found: String) -> ReadError {
-        if self.numbered == Some(true) && !self.begins_with_number() {
+        if self.numbered == Some(true) && !self.is_number_first {
             return ReadError::Unsupported {
                 what: format!("a table of several parts (another one begins{})", self.place()),
                 advice: "write one file per frame, with the frame's number in its name",
             };
         }
         ReadError::table(expected, found, self.place())
-    }
-
-    fn begins_with_number(&self) -> bool {
-        let first = self.record.iter().next().unwrap_or_default();
-        heading::is_number(&String::from_utf8_lossy(first), self.decimal_comma.then_some(b';'))
     }
 
     fn place(&self) -> Place {
@@ -277,7 +278,7 @@ impl Records<'_> {
             }
         }
         if self.numbered.is_none() {
-            self.numbered = Some(self.begins_with_number());
+            self.numbered = Some(self.is_number_first);
         }
         Ok(())
     }

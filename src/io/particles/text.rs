@@ -75,12 +75,15 @@ impl<'a> Text<'a> {
         Ok(rest.get(..count).unwrap_or(rest))
     }
 
-    /// Number of bytes before the next one for which `ends` holds, and whether there is such a byte.
-    fn find(&mut self, ends: impl Fn(&u8) -> bool) -> Result<(usize, bool), ReadError> {
+    /// Number of bytes before the next one that `search` finds, and whether there is such a byte.
+    fn find(
+        &mut self,
+        search: impl Fn(&[u8]) -> Option<usize>,
+    ) -> Result<(usize, bool), ReadError> {
         let mut searched = 0;
         loop {
             let rest = self.rest().get(searched..).unwrap_or_default();
-            if let Some(end) = rest.iter().position(&ends) {
+            if let Some(end) = search(rest) {
                 return Ok((searched + end, true));
             }
             searched += rest.len();
@@ -98,7 +101,7 @@ impl<'a> Text<'a> {
 
     /// The next line without its end, or `None` at the end.
     pub(super) fn line(&mut self) -> Result<Option<&[u8]>, ReadError> {
-        let (length, ends) = self.find(|b| *b == b'\n')?;
+        let (length, ends) = self.find(|rest| memchr::memchr(b'\n', rest))?;
         if length == 0 && !ends {
             return Ok(None);
         }
@@ -120,7 +123,7 @@ impl<'a> Text<'a> {
     /// The next word between white space, or `None` at the end.
     pub(super) fn token(&mut self) -> Result<Option<&[u8]>, ReadError> {
         self.skip_space()?;
-        let (length, _) = self.find(u8::is_ascii_whitespace)?;
+        let (length, _) = self.find(|rest| rest.iter().position(u8::is_ascii_whitespace))?;
         Ok(Some(self.pass(length)).filter(|token| !token.is_empty()))
     }
 

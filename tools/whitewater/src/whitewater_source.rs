@@ -426,7 +426,7 @@ impl Part {
         first: u32,
         seconds: f32,
     ) -> Self {
-        // The same files' water has told of another unit.
+        // The message is not shown: that of the water says the same.
         _ = placing::agree(&mut read, placing.scale);
         placing.place(&mut read);
         if let Some(velocities) = &read.velocities {
