@@ -738,8 +738,21 @@ fn blank_lines_between_blocks_may_be_frames() {
     assert!(of(&format!("{}\n\n# walls\n{}", body(3), body(3))));
     assert!(of(&format!("{}# walls\n{}", body(3), body(3))));
     assert!(of(&format!("{}\n{}", body(3), lattice(3, 5.0, " "))));
+    // Too few rows for steps: three between two blank lines, and eight between single ones.
+    let first =
+        |count: usize| lattice(2, 0.0, " ").split_inclusive('\n').take(count).collect::<String>();
+    assert!(of(&format!("{}\n\n{}", first(2), first(2))));
+    assert!(of(&format!("{}\n{}", first(7), first(7))));
     // Blank lines above, below and behind single rows mean nothing.
     assert!(!of(&format!("\n\nx y z\n\n{}\n{}\n\n\n# end\n", body(1), body(3))));
+    // And so do those in quoted fields.
+    let named =
+        |offset: f32, text: &str| lattice(3, offset, ",").replace('\n', &format!(",{text}\n"));
+    let text = named(0.0, "a") + &named(0.1, "\"b\n\n\n\"");
+    let path = folder.put("quoted.csv", format!("x,y,z,name\n{text}"));
+    let all = read(&path).unwrap();
+    assert_eq!((all.positions.len(), all.warnings), (54, vec![]));
+    assert!(steps(&path).unwrap().is_empty());
 }
 
 /// Ids that are all there several times are probably those of several steps.

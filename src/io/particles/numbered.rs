@@ -184,6 +184,7 @@ mod tests {
             ("1. x 2. particle id 3. v x", &["x", "particle id", "v x"]),
             ("0:x 1:y", &["x", "y"]),
             ("c1:x c2:y", &["x", "y"]),
+            ("1:x 2:y of 3 3:z", &["x", "y of 3", "z"]),
         ] {
             assert!(names(line).is_some_and(|names| names == expected), "{line}");
         }
