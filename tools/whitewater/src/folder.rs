@@ -1,6 +1,6 @@
 //! Finds the sequence of particle files in a folder.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 use std::path::Path;
 
@@ -222,7 +222,8 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     for (pattern, names) in timed {
         let plain: HashSet<String> = names.iter().map(|name| self::pattern(name)).collect();
         let units = names.iter().any(|name| time_with_unit(name).is_some());
-        if (units || 2 * plain.len() > names.len()) && plain.len() > 1 {
+        let times = || units || 2 * plain.len() > names.len() || have_tenths(&names);
+        if plain.len() > 1 && times() {
             done.extend(names.iter().copied());
             *patterns.entry(pattern).or_default() += names.len();
         }
@@ -231,6 +232,23 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
         *patterns.entry(pattern(name)).or_default() += 1;
     }
     patterns
+}
+
+/// Whether the digits behind the points of numbers in names are those of times: all of 0 to 9 (or 00 to 99 and so on),
+/// or some that do not follow each other, such as 0 and 5. The ranks of processes follow each other from 0 or 1 on.
+fn have_tenths(names: &[&String]) -> bool {
+    let behind_point = |name: &&String| {
+        let (_, digits) = name[time(name)?].rsplit_once('.')?;
+        Some((digits.len() as u32, digits.parse::<u32>().ok()?))
+    };
+    let Some(all) = names.iter().map(behind_point).collect::<Option<BTreeSet<_>>>() else {
+        return false;
+    };
+    let (Some((length, first)), Some((longest, last))) = (all.first(), all.last()) else {
+        return false;
+    };
+    let follow = *first <= 1 && (last - first) as usize + 1 == all.len();
+    length == longest && (!follow || 10_usize.checked_pow(*length) == Some(all.len()))
 }
 
 /// Where a number begins whose first digit is at this byte: a minus belongs to it if it begins the name or follows a
@@ -493,6 +511,20 @@ mod tests {
         let frames = crate::frames::files(&[at("units")], false).unwrap();
         let times: Vec<_> = frames.iter().map(|frame| frame.time.unwrap()).collect();
         assert_eq!(times, [0.0, 9.0e-4, 9.5e-4, 1.0e-3, 2.0e-3, 1.5]);
+        // Tenths and quarters of seconds, and two ranks in each frame.
+        for (folder, names) in [
+            ("tenths", (0..25).map(|i| format!("{}.{}", i / 10, i % 10)).collect::<Vec<_>>()),
+            ("quarters", (0..9).map(|i| format!("{:.2}", 0.25 * f64::from(i))).collect()),
+            ("ranks", ["10.0", "10.1", "11.0", "11.1", "12.0"].map(String::from).into()),
+        ] {
+            std::fs::create_dir_all(at(folder)).unwrap();
+            names.iter().for_each(|name| write(&format!("{folder}/out_{name}.csv")));
+            let frames = crate::frames::files(&[at(folder)], false);
+            match folder {
+                "ranks" => assert!(frames.unwrap_err().message.contains("--join")),
+                _ => assert_eq!(frames.unwrap().len(), names.len(), "{folder}"),
+            }
+        }
         // Times before the start.
         for (folder, times) in [
             ("before", ["-0.1", "0.0", "0.1"]),
