@@ -515,13 +515,13 @@ mod tests {
         for (folder, names) in [
             ("tenths", (0..25).map(|i| format!("{}.{}", i / 10, i % 10)).collect::<Vec<_>>()),
             ("quarters", (0..9).map(|i| format!("{:.2}", 0.25 * f64::from(i))).collect()),
-            ("ranks", ["10.0", "10.1", "11.0", "11.1", "12.0"].map(String::from).into()),
+            ("processes", ["10.0", "10.1", "11.0", "11.1", "12.0"].map(String::from).into()),
         ] {
             std::fs::create_dir_all(at(folder)).unwrap();
             names.iter().for_each(|name| write(&format!("{folder}/out_{name}.csv")));
             let frames = crate::frames::files(&[at(folder)], false);
             match folder {
-                "ranks" => assert!(frames.unwrap_err().message.contains("--join")),
+                "processes" => assert!(frames.unwrap_err().message.contains("several sequences")),
                 _ => assert_eq!(frames.unwrap().len(), names.len(), "{folder}"),
             }
         }
